@@ -1,0 +1,149 @@
+"""What the editor and the server say to each other, as JSON text frames over one WebSocket a tab.
+
+``static/editor/messages.js`` says the same in JSDoc types; a test compares the two.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from msgspec import Struct
+
+from storage.records import Annotation, Cap, Document, Edit, Outcome, Shape, Status
+
+
+class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
+    """Base of everything a browser may send."""
+
+
+class Hello(FromEditor, tag="hello"):
+    """First message: the one-time token viser put into this tab's page, and the image to come back to."""
+
+    token: str
+    image: int | None = None
+    """Shown before the connection broke, else None: the server chooses."""
+
+
+class Open(FromEditor, tag="open"):
+    """Show this image; ``select`` an annotation and bring it into view."""
+
+    image: int
+    select: str | None = None
+
+
+class Step(FromEditor, tag="step"):
+    """Show the next (+1) or previous (-1) image of the list as filtered."""
+
+    by: Literal[-1, 1]
+
+
+class Edits(FromEditor, tag="edits"):
+    """One change set, stored in one transaction; each edit gets an outcome of its own."""
+
+    edits: list[Edit]
+
+
+class Refit(FromEditor, tag="refit"):
+    """Asks for the whole outline of a cap while it is dragged. Only the latest is answered."""
+
+    seq: int
+    image: int
+    annotation: str
+    cap: Cap
+
+
+class Select(FromEditor, tag="select"):
+    """What is selected now, for the inspector."""
+
+    annotation: str | None = None
+    prediction: int | None = None
+
+
+class SetStatus(FromEditor, tag="status"):
+    """Says that an image is new, annotated or approved."""
+
+    image: int
+    status: Status
+
+
+class Saving(FromEditor, tag="saving"):
+    """How many edits of this tab wait for their acknowledgement, for the status line."""
+
+    waiting: int
+
+
+Incoming = Hello | Open | Step | Edits | Refit | Select | SetStatus | Saving
+
+
+class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
+    """Base of everything the server may send."""
+
+
+class Welcome(FromServer, tag="welcome"):
+    """Answers Hello."""
+
+    user: str
+    project: str
+    """A stable id: the browser keys its outbox by it."""
+
+
+class Show(FromServer, tag="show"):
+    """Show this image."""
+
+    document: Document
+    photo: str
+    """URL of the photo."""
+    select: str | None = None
+    position: int = 0
+    """Place in the list as filtered, from 0."""
+    count: int = 0
+
+
+class Outcomes(FromServer, tag="outcomes"):
+    """What became of edits this tab sent."""
+
+    outcomes: list[Outcome]
+
+
+class Changed(FromServer, tag="changed"):
+    """Somebody else (or a job) changed annotations of the image on screen."""
+
+    image: int
+    annotations: list[Annotation]
+    user: str
+
+
+class Fit(FromServer, tag="fit"):
+    """Answers Refit."""
+
+    seq: int
+    annotation: str
+    whole: Shape | None
+    centre: tuple[float, float] | None
+    note: str = ""
+    """How the fit came about, for the inspector; or why there is none."""
+
+
+class Layers(FromServer, tag="layers"):
+    """What the panel says is drawn, and how the photo looks."""
+
+    visible: dict[str, bool]
+    """photo, outline, fill, whole, centre, label, prediction"""
+    brightness: float = 1.0
+    contrast: float = 1.0
+
+
+class Command(FromServer, tag="command"):
+    """A panel button that the editor carries out: undo, redo, fit, delete, accept, accept_all, help, a tool's name …"""
+
+    name: str
+
+
+class Notice(FromServer, tag="notice"):
+    """A sentence for the person at this tab."""
+
+    text: str
+    level: Literal["info", "warning", "error"] = "info"
+
+
+Outgoing = Welcome | Show | Outcomes | Changed | Fit | Layers | Command | Notice

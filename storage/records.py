@@ -1,0 +1,146 @@
+"""What the store hands out and takes in: plain records, free of SQL.
+
+Outlines are lists of parts, each part a flat list ``[x0, y0, x1, y1, …]`` in continuous pixel
+coordinates of the upright image (x right, y down, the centre of pixel i at i + 0.5).
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from msgspec import Struct, field
+
+from model.geometry import Circle, Ellipse, Polygon
+
+Outline = list[list[float]]
+Shape = Circle | Ellipse
+"""A whole outline: also where the cap is hidden."""
+Mark = Circle | Ellipse | Polygon
+"""What a person placed. The browser places circles and polygons; ellipses come from imports."""
+Light = Literal["top", "side", "dark"]
+Status = Literal["new", "annotated", "approved"]
+
+
+class Image(Struct, frozen=True, kw_only=True):
+    """One photo of a project, upright."""
+
+    id: int
+    file_name: str
+    """Base name, unique in the project."""
+    path: str
+    """POSIX path below the project's folder, or absolute where the image is linked."""
+    width: int
+    height: int
+    sha256: str
+    light: str | None = None
+    form: str | None = None
+    split: str | None = None
+    status: Status = "new"
+    extra: dict[str, Any] = field(default_factory=dict)
+    """Keys of an imported file that this version does not know, kept for the export."""
+
+
+class Cap(Struct, frozen=True, kw_only=True):
+    """What a person can say about one cap; an edit carries all of it."""
+
+    visible: Outline
+    mark: Mark | None = None
+    ignored: bool = False
+    doubtful: bool = False
+    order: int | None = None
+    """Overlap order: a cap of higher order lies in front."""
+    category: str = "mushroom"
+    prediction: int | None = None
+    """The prediction this cap started from."""
+
+
+class Annotation(Struct, frozen=True, kw_only=True):
+    """A cap as people agreed on it, with what was derived from it."""
+
+    uid: str
+    """Chosen by whoever made it (the browser, an import), so that making it twice is harmless."""
+    image: int
+    revision: int
+    cap: Cap
+    deleted: bool = False
+    whole: Shape | None = None
+    """From the mark, else reconstructed from the visible outline; None until it is worked out."""
+    centre: tuple[float, float] | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+class Prediction(Struct, frozen=True, kw_only=True):
+    """A cap as a model run saw it. Never edited."""
+
+    id: int
+    run: int
+    image: int
+    visible: Outline
+    score: float
+    category: str = "mushroom"
+    whole: Shape | None = None
+    centre: tuple[float, float] | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+class Run(Struct, frozen=True, kw_only=True):
+    """What made a set of predictions."""
+
+    id: int
+    name: str
+    kind: Literal["import", "simulated", "network"]
+    made_at: str
+    """UTC, ISO 8601."""
+    weights: str | None = None
+    """SHA-256 of the weights."""
+    settings: dict[str, Any] = field(default_factory=dict)
+
+
+class Edit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One change of one annotation, as the browser sends it."""
+
+    id: str
+    """Chosen by the browser: the same id a second time changes nothing."""
+    annotation: str
+    image: int
+    base: int
+    """The revision it was made on; 0 makes a new annotation."""
+    cap: Cap | None
+    """The whole cap as it should be; None deletes it."""
+
+
+class Accepted(Struct, frozen=True, kw_only=True, tag="accepted", tag_field="outcome"):
+    """The edit is on disk (now, or when it was first sent)."""
+
+    edit: str
+    annotation: Annotation
+
+
+class Conflict(Struct, frozen=True, kw_only=True, tag="conflict", tag_field="outcome"):
+    """The annotation has moved on since ``edit.base``; nothing was changed."""
+
+    edit: str
+    theirs: Annotation
+    user: str
+    """Who made the revision that is in the way."""
+
+
+class Refused(Struct, frozen=True, kw_only=True, tag="refused", tag_field="outcome"):
+    """The edit cannot be stored, and why, in a sentence for a person."""
+
+    edit: str
+    reason: str
+
+
+Outcome = Accepted | Conflict | Refused
+
+
+class Document(Struct, frozen=True, kw_only=True):
+    """Everything the editor shows of one image."""
+
+    image: Image
+    annotations: list[Annotation]
+    """Live ones only."""
+    predictions: list[Prediction]
+    """Of the latest run that saw this image."""
+    run: Run | None
