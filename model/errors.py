@@ -1,0 +1,5 @@
+"""The one exception whose text is meant for the person at the keyboard."""
+
+
+class FairyringError(Exception):
+    """Something a person can put right: ``str(error)`` is a sentence with the file and the remedy."""
