@@ -1,0 +1,62 @@
+"""The ``fairyring`` command: puts the commands together and turns errors into sentences and exit codes."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+
+from app.commands import benchmarks, demo, project, serve
+from model.errors import FairyringError
+
+app = typer.Typer(
+    name="fairyring",
+    help="Correct mushroom labels in the browser, and know where every cap's centre is.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("init")(project.init)
+app.command("import")(project.import_)
+app.command("serve")(serve.serve)
+app.command("export")(project.export)
+app.command("backup")(project.backup)
+app.command("demo")(demo.demo)
+app.add_typer(benchmarks.commands, name="bench")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(version("fairyring"))
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    *,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log what happens, on stderr.")] = False,
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    logging.basicConfig(
+        level=logging.INFO if verbose else logging.WARNING,
+        format="%(levelname)s %(name)s: %(message)s",
+        stream=sys.stderr,
+    )
+
+
+def main() -> None:
+    """Runs a command. Exit code 0: done, 1: failed, with a sentence on stderr, 2: wrong use."""
+    try:
+        app()
+    except FairyringError as error:
+        typer.echo(f"fairyring: {error}", err=True)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        typer.echo("fairyring: stopped; nothing half-done was kept.", err=True)
+        sys.exit(130)

@@ -1,0 +1,50 @@
+"""``fairyring bench``: measurements anybody can run again, as ratios to a plain reference in the same run."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated, Any
+
+import typer
+
+commands = typer.Typer(no_args_is_help=True, help="Measure, as ratios to a plain reference in the same run.")
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
+Quick = Annotated[bool, typer.Option(help="A small run, to see that it works.")]
+
+
+@commands.command()
+def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time list, open, edit and import in a project of 10 000 images and 500 000 instances.
+
+    Example: `fairyring bench store --json`
+    """
+    from app.bench import store as bench
+
+    _print("store", bench.run(quick=quick), as_json=as_json)
+
+
+@commands.command()
+def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time the editor in headless Chromium: pointer to drawn, edit to saved, image to image.
+
+    Example: `fairyring bench editor --json`
+    """
+    from app.bench import editor as bench
+
+    _print("editor", bench.run(quick=quick), as_json=as_json)
+
+
+def _print(title: str, rows: list[dict[str, Any]], *, as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps(rows))
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title)
+    for column in rows[0]:
+        table.add_column(column.replace("_", " "))
+    for row in rows:
+        table.add_row(*("" if value is None else str(value) for value in row.values()))
+    Console().print(table)

@@ -1,0 +1,172 @@
+"""Commands on a project folder: init, import, export, backup."""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from app.commands.progress import shown_on_stderr
+
+if TYPE_CHECKING:
+    from storage.importing import ImportReport
+
+ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
+
+
+class ImportFormat(StrEnum):
+    """What a path given to ``import`` holds."""
+
+    auto = "auto"
+    images = "images"
+    coco = "coco"
+    labelme = "labelme"
+
+
+class ImportAs(StrEnum):
+    """What imported shapes become."""
+
+    annotations = "annotations"
+    predictions = "predictions"
+
+
+class LightSource(StrEnum):
+    """The paper's three light sources (Figure 4)."""
+
+    top = "top"
+    side = "side"
+    dark = "dark"
+
+
+class Only(StrEnum):
+    """Which images an export holds."""
+
+    annotated = "annotated"
+    approved = "approved"
+    predicted = "predicted"
+    all = "all"
+
+
+class ExportFormat(StrEnum):
+    """The formats an export can be written in."""
+
+    coco = "coco"
+
+
+def init(
+    folder: ProjectFolder,
+    *,
+    db: Annotated[str | None, typer.Option(help="SQLAlchemy URL; else project.db in the folder.")] = None,
+) -> None:
+    """Make an empty project.
+
+    Example: `fairyring init beds`
+    """
+    from storage.project import create_project
+
+    create_project(folder, url=db).close()
+    typer.echo(f"Made {folder}. Next: fairyring import {folder} PHOTOS", err=True)
+
+
+def import_(
+    folder: ProjectFolder,
+    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Images, folders, JSON files.")],
+    *,
+    format: Annotated[ImportFormat, typer.Option(help="What the paths hold.")] = ImportFormat.auto,  # noqa: A002
+    as_: Annotated[ImportAs, typer.Option("--as", help="What the shapes become.")] = ImportAs.annotations,
+    strict: Annotated[bool, typer.Option(help="Take nothing if anything is wrong.")] = False,
+    link: Annotated[bool, typer.Option(help="Leave the images where they are; do not copy.")] = False,
+    light: Annotated[LightSource | None, typer.Option(help="Light source of these images.")] = None,
+    form: Annotated[str | None, typer.Option(help="The paper's form of these images, a to h.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Take in images and labels; report everything that is wrong, with file and reason.
+
+    Example: `fairyring import beds photos/ labels.json --as predictions`
+    """
+    from app.derive import fill_in
+    from storage.importing import import_paths
+    from storage.project import open_project
+
+    if form is not None and form not in tuple("abcdefgh"):
+        raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
+    with open_project(folder) as project, shown_on_stderr() as progress:
+        report = import_paths(
+            project,
+            paths,
+            format=format.value,
+            as_=as_.value,
+            strict=strict,
+            link=link,
+            light=light.value if light else None,
+            form=form,
+            progress=progress,
+        )
+        fill_in(project, progress=progress)
+    _print_import(report, as_json=as_json)
+
+
+def _print_import(report: ImportReport, *, as_json: bool) -> None:
+    for problem in report.problems:
+        typer.echo(str(problem), err=True)
+    figures = {
+        "images": report.images,
+        "images_known": report.images_known,
+        "annotations": report.annotations,
+        "predictions": report.predictions,
+        "known": report.known,
+        "problems": len(report.problems),
+    }
+    if as_json:
+        typer.echo(json.dumps(figures))
+        return
+    typer.echo(
+        f"{report.images} images ({report.images_known} already there), {report.annotations} annotations, "
+        f"{report.predictions} predictions ({report.known} already there), {len(report.problems)} problems"
+    )
+
+
+def export(
+    folder: ProjectFolder,
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="A new or empty folder.")],
+    *,
+    format: Annotated[ExportFormat, typer.Option(help="Format to write.")] = ExportFormat.coco,  # noqa: A002
+    only: Annotated[Only, typer.Option(help="Which images.")] = Only.annotated,
+    with_ignored: Annotated[bool, typer.Option(help="Keep ignored caps, as iscrowd 1.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Write a data set others can load.
+
+    Example: `fairyring export beds beds-coco --format coco --only approved`
+    """
+    from app.derive import fill_in
+    from storage.exporting import export_coco
+    from storage.project import open_project
+
+    assert format is ExportFormat.coco
+    with open_project(folder) as project, shown_on_stderr() as progress:
+        fill_in(project, progress=progress)
+        report = export_coco(project, out, only=only.value, with_ignored=with_ignored, progress=progress)
+    if as_json:
+        typer.echo(json.dumps({"images": report.images, "annotations": report.annotations}))
+    else:
+        typer.echo(f"{report.images} images, {report.annotations} annotations in {out}")
+
+
+def backup(
+    folder: ProjectFolder,
+    out: Annotated[Path, typer.Argument(metavar="OUT.db", help="A new file.")],
+) -> None:
+    """Copy the database while people go on working.
+
+    Example: `fairyring backup beds beds-monday.db`
+    """
+    from storage.project import back_up, open_project
+
+    with open_project(folder) as project:
+        back_up(project, out)
+    typer.echo(f"Wrote {out}", err=True)

@@ -1,0 +1,28 @@
+"""The command that opens a project in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.commands.project import ProjectFolder
+
+
+def serve(
+    folder: ProjectFolder,
+    *,
+    host: Annotated[str | None, typer.Option(help="Address to listen on: 127.0.0.1.")] = None,
+    port: Annotated[int | None, typer.Option(help="Port to listen on: 8080.", min=1, max=65535)] = None,
+    config: Annotated[Path | None, typer.Option(help="TOML file; else the project's own.")] = None,
+) -> None:
+    """Open a project in the browser, until Ctrl+C.
+
+    Example: `fairyring serve beds --port 8080`
+    """
+    from app.gateway.server import serve as run
+    from app.settings import load_settings
+
+    settings = load_settings(folder, file=config, host=host, port=port)
+    run(folder, settings=settings)
