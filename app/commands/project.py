@@ -76,7 +76,9 @@ def import_(
     folder: ProjectFolder,
     paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Images, folders, JSON files.")],
     *,
-    format: Annotated[ImportFormat, typer.Option(help="What the paths hold.")] = ImportFormat.auto,  # noqa: A002
+    format_: Annotated[
+        ImportFormat, typer.Option("--format", help="What the paths hold.")
+    ] = ImportFormat.auto,
     as_: Annotated[ImportAs, typer.Option("--as", help="What the shapes become.")] = ImportAs.annotations,
     strict: Annotated[bool, typer.Option(help="Take nothing if anything is wrong.")] = False,
     link: Annotated[bool, typer.Option(help="Leave the images where they are; do not copy.")] = False,
@@ -98,7 +100,7 @@ def import_(
         report = import_paths(
             project,
             paths,
-            format=format.value,
+            format=format_.value,
             as_=as_.value,
             strict=strict,
             link=link,
@@ -134,7 +136,7 @@ def export(
     folder: ProjectFolder,
     out: Annotated[Path, typer.Argument(metavar="OUT", help="A new or empty folder.")],
     *,
-    format: Annotated[ExportFormat, typer.Option(help="Format to write.")] = ExportFormat.coco,  # noqa: A002
+    format_: Annotated[ExportFormat, typer.Option("--format", help="Format to write.")] = ExportFormat.coco,
     only: Annotated[Only, typer.Option(help="Which images.")] = Only.annotated,
     with_ignored: Annotated[bool, typer.Option(help="Keep ignored caps, as iscrowd 1.")] = False,
     as_json: AsJson = False,
@@ -147,7 +149,7 @@ def export(
     from storage.exporting import export_coco
     from storage.project import open_project
 
-    assert format is ExportFormat.coco
+    assert format_ is ExportFormat.coco
     with open_project(folder) as project, shown_on_stderr() as progress:
         fill_in(project, progress=progress)
         report = export_coco(project, out, only=only.value, with_ignored=with_ignored, progress=progress)

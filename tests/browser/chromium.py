@@ -60,7 +60,7 @@ def install() -> None:
         attempts.insert(0, [*sudo, "apt-get", "update", "-qq"])
     for command in attempts:
         if find() is None and (shutil.which(command[0]) or Path(command[0]).exists()):
-            print("Looking for a browser:", " ".join(command), file=sys.stderr)
+            sys.stderr.write(f"Looking for a browser: {' '.join(command)}\n")
             subprocess.run(command, check=False, stdout=sys.stderr)
 
 
@@ -69,7 +69,7 @@ def main() -> int:
     if find() is None:
         install()
     path = find()
-    print(path or REMEDY, file=sys.stdout if path else sys.stderr)
+    (sys.stdout if path else sys.stderr).write(f"{path or REMEDY}\n")
     return 0 if path else 1
 
 

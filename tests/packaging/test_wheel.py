@@ -32,7 +32,7 @@ def test_the_wheel_carries_the_editor_and_the_migrations(wheel: Path) -> None:
 def test_the_installed_wheel_makes_imports_and_exports_a_project(wheel: Path, tmp_path: Path) -> None:
     venv.create(tmp_path / "env", with_pip=True)
     python = tmp_path / "env" / "bin" / "python"
-    # The dependencies are those of this environment, by a path file: only Fairyring itself is installed afresh.
+    # A path file lends this environment's dependencies: only Fairyring itself is installed afresh.
     here = next(p for p in sys.path if p.endswith("site-packages"))
     there = next((tmp_path / "env" / "lib").glob("python*/site-packages"))
     (there / "dependencies.pth").write_text(f"import sys; sys.path.append({here!r})\n")

@@ -1,4 +1,4 @@
-"""The dependency arrows of the packages: app → storage, model; storage → a little of model; model → nothing."""
+"""The dependency arrows: app → storage, model; storage → a little of model; model → nothing of ours."""
 
 from __future__ import annotations
 
