@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from storage.records import Annotation, Cap, Document, Edit, Outcome, Shape, Status
 
@@ -72,7 +72,13 @@ class Saving(FromEditor, tag="saving"):
     waiting: int
 
 
-Incoming = Hello | Open | Step | Edits | Refit | Select | SetStatus | Saving
+class Toggle(FromEditor, tag="toggle"):
+    """A key showed or hid a layer; the panel follows and answers with `Layers`."""
+
+    layer: str
+
+
+Incoming = Hello | Open | Step | Edits | Refit | Select | SetStatus | Saving | Toggle
 
 
 class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -97,6 +103,8 @@ class Show(FromServer, tag="show"):
     position: int = 0
     """Place in the list as filtered, from 0."""
     count: int = 0
+    ahead: list[str] = field(default_factory=list)
+    """URLs of the photos likely to be shown next, fetched in advance."""
 
 
 class Outcomes(FromServer, tag="outcomes"):
