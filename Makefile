@@ -10,11 +10,11 @@ demo: .venv/product
 	@$(BIN)/fairyring serve demo --port $(PORT)
 
 test: .venv/development
-	@$(BIN)/python -m tests.browser.chromium
+	@$(BIN)/python -m app.bench.chromium
 	$(BIN)/python -m pytest $(ARGS)
 
 bench: .venv/development
-	@$(BIN)/python -m tests.browser.chromium
+	@$(BIN)/python -m app.bench.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
 

@@ -1,6 +1,6 @@
-"""Finds a Chromium to test in, or installs one: an installed browser, else Debian's, else playwright's own.
+"""Finds a Chromium to test and measure in, or installs one: an installed browser, else Debian's, else playwright's own.
 
-``python -m tests.browser.chromium`` prints its path, and fails with the remedy where there is none.
+``python -m app.bench.chromium`` prints its path, and fails with the remedy where there is none.
 """
 
 from __future__ import annotations

@@ -1,0 +1,65 @@
+"""A real browser, a real server, a project of generated beds."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, sync_playwright
+
+from app.bench.chromium import FLAGS, REMEDY, find
+from tests.browser.server import Server, fairyring
+from tests.browser.tab import Tab
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    path = find()
+    assert path is not None, REMEDY
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=str(path), args=list(FLAGS))
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture(scope="session")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("beds") / "beds"
+    fairyring("demo", folder, "--count", "3", "--seed", "7")
+    return folder
+
+
+@pytest.fixture
+def project(made_once: Path, tmp_path: Path) -> Path:
+    """Three generated beds with simulated predictions, fresh for each test."""
+    return Path(shutil.copytree(made_once, tmp_path / "beds"))
+
+
+@pytest.fixture
+def server(project: Path) -> Iterator[Server]:
+    served = Server(project)
+    served.start()
+    yield served
+    if served.process and served.process.poll() is None:
+        served.stop()
+
+
+@pytest.fixture
+def open_tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
+    """Opens a tab as a person with a browser of their own; a tab with page errors fails the test."""
+    tabs: list[Tab] = []
+
+    def open_(server: Server, *, name: str = "Ada") -> Tab:
+        context = browser.new_context(viewport={"width": 1500, "height": 900})
+        tab = Tab(context.new_page())
+        tabs.append(tab)
+        tab.enter(server.url, name=name)
+        return tab
+
+    yield open_
+    errors = [error for tab in tabs for error in tab.errors]
+    for tab in tabs:
+        tab.page.context.close()
+    assert errors == []
