@@ -1,0 +1,117 @@
+"""Review figures kept per image and run, and which of them an edit has made stale."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from msgspec import Struct, structs
+from sqlalchemy import ColumnElement, Connection, delete, func, insert, select
+
+from storage.clock import now
+from storage.schema import comparison, image
+
+ComparisonSort = Literal["name", "caps", "marked", "missed", "extra", "cdr_mean", "cdr_worst"]
+
+
+class Comparison(Struct, frozen=True, kw_only=True):
+    """The annotations of an image against the predictions of a run."""
+
+    image: int
+    run: int
+    version: int
+    """``documents.load_version`` from before the caps were loaded; a later edit makes this stale."""
+    caps: int
+    marked: int
+    """Caps whose mark gives a true centre."""
+    matched: int
+    missed: int
+    extra: int
+    cdr_mean: float | None = None
+    """Percent (Eq. 10)."""
+    cdr_worst: float | None = None
+    worst: str | None = None
+    """The annotation of the worst CDR."""
+    px_mean: float | None = None
+    relative_mean: float | None = None
+    """Error over the cap's diameter."""
+    dx: float | None = None
+    """Signed mean error, pixels, predicted minus marked."""
+    dy: float | None = None
+
+
+class ComparisonRow(Struct, frozen=True, kw_only=True):
+    """A line of the review."""
+
+    file_name: str
+    comparison: Comparison
+    stale: bool
+
+
+class ComparisonPage(Struct, frozen=True, kw_only=True):
+    """Some lines, and how many there are."""
+
+    rows: list[ComparisonRow]
+    total: int
+
+
+def store_comparison(connection: Connection, figures: Comparison) -> None:
+    """Replaces what was known of this image and run."""
+    connection.execute(
+        delete(comparison).where(comparison.c.image == figures.image, comparison.c.run == figures.run)
+    )
+    connection.execute(insert(comparison).values(**structs.asdict(figures), made_at=now()))
+
+
+def list_comparisons(
+    connection: Connection,
+    run_id: int,
+    *,
+    sort: ComparisonSort = "cdr_worst",
+    descending: bool = True,
+    offset: int = 0,
+    limit: int = 50,
+) -> ComparisonPage:
+    """The review of a run. Images without a figure come last either way."""
+    column: ColumnElement[Any] = image.c.sort_name if sort == "name" else comparison.c[sort]
+    directed = (column.desc() if descending else column.asc()).nulls_last()
+    of_run = comparison.c.run == run_id
+    statement = (
+        select(comparison, image.c.file_name, (image.c.version != comparison.c.version).label("stale"))
+        .join(image, image.c.id == comparison.c.image)
+        .where(of_run)
+        .order_by(directed, image.c.sort_name, image.c.id)
+        .offset(offset)
+        .limit(limit)
+    )
+    total = connection.execute(select(func.count()).select_from(comparison).where(of_run)).scalar_one()
+    rows = [
+        ComparisonRow(file_name=row.file_name, comparison=_comparison_of(row), stale=bool(row.stale))
+        for row in connection.execute(statement)
+    ]
+    return ComparisonPage(rows=rows, total=total)
+
+
+def get_comparison(connection: Connection, image_id: int, run_id: int) -> Comparison | None:
+    """What is known of one image, stale or not."""
+    found = select(comparison).where(comparison.c.image == image_id, comparison.c.run == run_id)
+    row = connection.execute(found).first()
+    return None if row is None else _comparison_of(row)
+
+
+def stale_images(connection: Connection, run_id: int) -> list[int]:
+    """Images with caps whose figures against this run, their latest, are missing or out of date."""
+    statement = (
+        select(image.c.id)
+        .outerjoin(comparison, (comparison.c.image == image.c.id) & (comparison.c.run == run_id))
+        .where(
+            image.c.run == run_id,
+            image.c.caps + image.c.ignored > 0,
+            comparison.c.version.is_(None) | (comparison.c.version != image.c.version),
+        )
+        .order_by(image.c.id)
+    )
+    return list(connection.execute(statement).scalars())
+
+
+def _comparison_of(row: Any) -> Comparison:
+    return Comparison(**{name: getattr(row, name) for name in Comparison.__struct_fields__})

@@ -1,0 +1,93 @@
+"""What the editor, an export and a comparison read of one image."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sqlalchemy import Connection, exists, select
+
+from storage.records import Annotation, Document, Prediction, Run
+from storage.rows import (
+    SELECT_ANNOTATIONS,
+    SELECT_PREDICTIONS,
+    AnySelect,
+    annotation_of,
+    image_of,
+    prediction_of,
+    require_image,
+    run_of,
+)
+from storage.schema import annotation, image, prediction, run
+
+
+def load_document(connection: Connection, image_id: int) -> Document:
+    """Everything the editor shows: live annotations, and predictions that nobody has deleted.
+
+    Raises:
+        StoreError: the project has no such image.
+    """
+    row = require_image(connection, image_id)
+    return Document(
+        image=image_of(row),
+        annotations=load_annotations(connection, image_id),
+        predictions=_predictions(connection, _of_latest_run(image_id).where(~_rejected())),
+        run=None if row.run is None else load_run(connection, row.run),
+    )
+
+
+def load_annotations(connection: Connection, image_id: int) -> list[Annotation]:
+    """The live annotations of an image, in the order in which they were made."""
+    statement = (
+        SELECT_ANNOTATIONS.where(annotation.c.image == image_id, annotation.c.deleted == 0)
+        .order_by(annotation.c.id)
+    )  # fmt: skip
+    return [annotation_of(row) for row in connection.execute(statement)]
+
+
+def load_annotation(connection: Connection, uid: str) -> Annotation | None:
+    """One annotation, deleted or not."""
+    row = connection.execute(SELECT_ANNOTATIONS.where(annotation.c.uid == uid)).first()
+    return None if row is None else annotation_of(row)
+
+
+def load_predictions(connection: Connection, image_id: int) -> list[Prediction]:
+    """All predictions of the latest run that saw an image, deleted or accepted ones too."""
+    return _predictions(connection, _of_latest_run(image_id))
+
+
+def load_prediction(connection: Connection, prediction_id: int) -> Prediction | None:
+    """One prediction of any run."""
+    row = connection.execute(SELECT_PREDICTIONS.where(prediction.c.id == prediction_id)).first()
+    return None if row is None else prediction_of(row)
+
+
+def load_run(connection: Connection, run_id: int) -> Run | None:
+    """One run."""
+    row = connection.execute(select(run).where(run.c.id == run_id)).first()
+    return None if row is None else run_of(row)
+
+
+def load_version(connection: Connection, image_id: int) -> int:
+    """Grows whenever an annotation or prediction of the image changes.
+
+    Read it before the caps that a figure is computed from, and store it with the figure.
+
+    Raises:
+        StoreError: the project has no such image.
+    """
+    return require_image(connection, image_id).version
+
+
+def _of_latest_run(image_id: int) -> AnySelect:
+    latest = select(image.c.run).where(image.c.id == image_id).scalar_subquery()
+    return SELECT_PREDICTIONS.where(prediction.c.image == image_id, prediction.c.run == latest)
+
+
+def _rejected() -> Any:
+    """A prediction that somebody turned into a deleted annotation, and not into a live one."""
+    started = exists().where(annotation.c.prediction == prediction.c.id)
+    return started.where(annotation.c.deleted == 1) & ~started.where(annotation.c.deleted == 0)
+
+
+def _predictions(connection: Connection, statement: AnySelect) -> list[Prediction]:
+    return [prediction_of(row) for row in connection.execute(statement.order_by(prediction.c.id))]

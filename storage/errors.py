@@ -1,0 +1,9 @@
+"""What goes wrong with a project, said so that a person can put it right."""
+
+from __future__ import annotations
+
+from model.errors import FairyringError
+
+
+class StoreError(FairyringError):
+    """The project, its database or a file of it cannot be used as asked."""

@@ -1,0 +1,199 @@
+"""The list of images: filtered, sorted, a page at a time, and the place of one image in it."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Literal
+
+from msgspec import Struct
+from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
+
+from storage.checking import check_name
+from storage.clock import now
+from storage.errors import StoreError
+from storage.records import Image, Status
+from storage.rows import AnyRow, AnySelect, image_of, require_image
+from storage.schema import comparison, image, status_change
+
+Sort = Literal["name", "added", "caps", "cdr"]
+STATUSES: tuple[Status, ...] = ("new", "annotated", "approved")
+
+
+class ImageFilter(Struct, frozen=True, kw_only=True):
+    """Which images, in which order. None asks for nothing."""
+
+    search: str = ""
+    """Part of the file name, upper or lower case."""
+    status: Status | None = None
+    light: str | None = None
+    form: str | None = None
+    split: str | None = None
+    predicted: bool | None = None
+    """Has predictions (True) or has none."""
+    annotated: bool | None = None
+    """Has live annotations (True) or has none."""
+    sort: Sort = "name"
+    descending: bool = False
+    """Images without a figure come last either way."""
+
+
+class ImageRow(Struct, frozen=True, kw_only=True):
+    """One line of the list."""
+
+    image: Image
+    caps: int
+    """Live annotations that are not ignored."""
+    ignored: int
+    predicted: int
+    """Predictions of the latest run that saw the image."""
+    cdr_mean: float | None
+    """Percent, of the latest comparison, which may be out of date."""
+    cdr_worst: float | None
+    worst: str | None
+    """The annotation with the worst CDR."""
+
+
+class ImagePage(Struct, frozen=True, kw_only=True):
+    """Some lines, and how many the filter finds in all."""
+
+    rows: list[ImageRow]
+    total: int
+
+
+class Place(Struct, frozen=True, kw_only=True):
+    """Where an image stands in the list. One that the filter leaves out stands where it would be."""
+
+    position: int
+    """From 0."""
+    count: int
+    """Images the filter finds."""
+    previous: int | None
+    next: int | None
+
+
+def list_images(connection: Connection, which: ImageFilter, *, offset: int = 0, limit: int = 50) -> ImagePage:
+    """A page of the list and the length of the whole."""
+    page = _joined(image, comparison.c.cdr_mean, comparison.c.cdr_worst, comparison.c.worst)
+    page = page.where(_condition(which)).order_by(*_order(which)).offset(offset).limit(limit)
+    total = connection.execute(select(func.count()).select_from(image).where(_condition(which)))
+    return ImagePage(rows=[_row(row) for row in connection.execute(page)], total=total.scalar_one())
+
+
+def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
+    """The numbers of all images the filter finds, in its order."""
+    statement = _joined(image.c.id).where(_condition(which)).order_by(*_order(which))
+    return list(connection.execute(statement).scalars())
+
+
+def place_in_list(connection: Connection, which: ImageFilter, image_id: int) -> Place:
+    """Where the image stands, and its neighbours.
+
+    Raises:
+        StoreError: the project has no such image.
+    """
+    order = _order(which)
+    ranked = (
+        _joined(
+            image.c.id,
+            _condition(which).label("found"),
+            (func.row_number().over(order_by=order) - 1).label("position"),
+            func.lag(image.c.id).over(order_by=order).label("previous"),
+            func.lead(image.c.id).over(order_by=order).label("next"),
+            func.count().over().label("shown"),
+        )
+        .where(or_(_condition(which), image.c.id == image_id))
+        .subquery()
+    )
+    row = connection.execute(select(ranked).where(ranked.c.id == image_id)).first()
+    if row is None:
+        raise StoreError(f"The project has no image number {image_id}; reload the list of images.")
+    count = row.shown if row.found else row.shown - 1
+    return Place(position=row.position, count=count, previous=row.previous, next=row.next)
+
+
+def get_image(connection: Connection, image_id: int) -> Image:
+    """One image.
+
+    Raises:
+        StoreError: the project has no such image.
+    """
+    return image_of(require_image(connection, image_id))
+
+
+def find_image(connection: Connection, file_name: str) -> Image | None:
+    """The image of this base name."""
+    row = connection.execute(select(image).where(image.c.file_name == file_name)).first()
+    return None if row is None else image_of(row)
+
+
+def set_status(connection: Connection, image_id: int, status: Status, *, user: str) -> Image:
+    """Sets the status and journals who did it and when; returns the image as it is now.
+
+    Raises:
+        StoreError: the project has no such image, or there is no such status.
+    """
+    check_name(user, "name of a user")
+    if status not in STATUSES:
+        raise StoreError(f"The status of an image is one of {', '.join(STATUSES)}.")
+    before = require_image(connection, image_id).status
+    if before != status:
+        connection.execute(update(image).where(image.c.id == image_id).values(status=status))
+        connection.execute(
+            insert(status_change).values(
+                image=image_id, before=before, after=status, user=user, made_at=now()
+            )
+        )
+    return get_image(connection, image_id)
+
+
+def sort_name(file_name: str) -> str:
+    """Sorts bed_2 before bed_10, and upper case beside lower case."""
+    return re.sub(r"[0-9]+", lambda digits: digits.group().zfill(12), file_name.casefold())
+
+
+def _joined(*columns: Any) -> AnySelect:
+    """Images with the figures of their latest run."""
+    latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
+    return select(*columns).select_from(image.outerjoin(comparison, latest))
+
+
+def _condition(which: ImageFilter) -> ColumnElement[bool]:
+    wanted: list[ColumnElement[bool]] = [
+        image.c[name] == value
+        for name in ("status", "light", "form", "split")
+        if (value := getattr(which, name)) is not None
+    ]
+    if which.search:
+        wanted.append(image.c.file_name.icontains(which.search, autoescape=True))
+    if which.predicted is not None:
+        wanted.append(image.c.predicted > 0 if which.predicted else image.c.predicted == 0)
+    if which.annotated is not None:
+        live = image.c.caps + image.c.ignored
+        wanted.append(live > 0 if which.annotated else live == 0)
+    return and_(image.c.id > 0, *wanted)
+
+
+def _order(which: ImageFilter) -> list[ColumnElement[Any]]:
+    columns: dict[Sort, ColumnElement[Any]] = {
+        "name": image.c.sort_name,
+        "added": image.c.id,
+        "caps": image.c.caps,
+        "cdr": comparison.c.cdr_worst,
+    }
+    column = columns[which.sort]
+    directed = column.desc() if which.descending else column.asc()
+    if which.sort == "cdr":
+        return [directed.nulls_last(), image.c.sort_name, image.c.id]
+    return [directed, image.c.sort_name, image.c.id]
+
+
+def _row(row: AnyRow) -> ImageRow:
+    return ImageRow(
+        image=image_of(row),
+        caps=row.caps,
+        ignored=row.ignored,
+        predicted=row.predicted,
+        cdr_mean=row.cdr_mean,
+        cdr_worst=row.cdr_worst,
+        worst=row.worst,
+    )

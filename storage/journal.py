@@ -1,0 +1,203 @@
+"""Edits: an append-only journal, revisions, and conflicts instead of lost updates."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from hashlib import sha256
+
+from msgspec import Struct, json
+from sqlalchemy import Connection, insert, select, update
+
+from model.errors import FairyringError
+from storage import schema
+from storage.checking import check_cap, check_name
+from storage.clock import now
+from storage.counting import recount
+from storage.errors import StoreError
+from storage.project import Project
+from storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
+from storage.rows import (
+    SELECT_ANNOTATIONS,
+    annotation_of,
+    load_categories,
+    require_image,
+    values_of_cap,
+    values_of_fit,
+)
+
+
+class Derived(Struct, frozen=True, kw_only=True):
+    """An edit with what was worked out from its cap; all None where that is left for later."""
+
+    edit: Edit
+    whole: Shape | None = None
+    centre: tuple[float, float] | None = None
+    refusal: str | None = None
+    """Why there is no whole outline, though it was tried."""
+
+
+class Entry(Struct, frozen=True, kw_only=True):
+    """One row of the journal."""
+
+    id: str
+    annotation: str
+    image: int
+    revision: int
+    before: Cap | None
+    after: Cap | None
+    user: str
+    made_at: str
+    """UTC, ISO 8601."""
+
+
+def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Outcome]:
+    """Stores a change set in one transaction; on disk when this returns.
+
+    Each edit has an outcome of its own, in order: a conflict or a refusal does not keep the others out.
+    An edit sent before is accepted again, with the annotation as it is now.
+
+    Raises:
+        StoreError: the database cannot be written, or ``user`` is no name.
+    """
+    check_name(user, "name of a user")
+    return project.write(lambda connection: commit_on(connection, edits, user=user))
+
+
+def commit_on(connection: Connection, edits: Sequence[Derived], *, user: str) -> list[Outcome]:
+    """``commit`` within a transaction that is open already."""
+    categories = load_categories(connection)
+    outcomes = [_commit_one(connection, edit, user=user, categories=categories) for edit in edits]
+    recount(connection, (o.annotation.image for o in outcomes if isinstance(o, Accepted)))
+    return outcomes
+
+
+def history(connection: Connection, uid: str) -> list[Entry]:
+    """Everything that was done to an annotation, the first edit first."""
+    journal = schema.edit
+    statement = select(journal).where(journal.c.annotation == uid).order_by(journal.c.revision)
+    return [
+        Entry(
+            id=row.id,
+            annotation=row.annotation,
+            image=row.image,
+            revision=row.revision,
+            before=row.before,
+            after=row.after,
+            user=row.user,
+            made_at=row.made_at,
+        )
+        for row in connection.execute(statement)
+    ]
+
+
+def digest_of(edit: Edit) -> str:
+    """Tells an edit sent twice from another one under the same id."""
+    return sha256(json.encode(edit)).hexdigest()
+
+
+def _commit_one(
+    connection: Connection, derived: Derived, *, user: str, categories: dict[str, int]
+) -> Outcome:
+    edit = derived.edit
+    try:
+        check_name(edit.id, "number of an edit")
+        check_name(edit.annotation, "number of an annotation")
+        if (repeated := _sent_before(connection, edit)) is not None:
+            return repeated
+        current, editor = _current(connection, edit.annotation)
+        if current is not None and current.image != edit.image:
+            raise StoreError("This annotation belongs to another image.")
+        if current is None and edit.base != 0:
+            raise StoreError("There is no such annotation; reload the image.")
+        if current is not None and not _is_made_on(edit, current):
+            return Conflict(edit=edit.id, theirs=current, user=editor)
+        cap = _checked(connection, edit, categories)
+    except FairyringError as error:
+        return Refused(edit=edit.id, reason=str(error))
+    return Accepted(
+        edit=edit.id,
+        annotation=_store(connection, derived, cap, current, user=user, categories=categories),
+    )
+
+
+def _sent_before(connection: Connection, edit: Edit) -> Outcome | None:
+    row = connection.execute(select(schema.edit.c.digest).where(schema.edit.c.id == edit.id)).first()
+    if row is None:
+        return None
+    if row.digest != digest_of(edit):
+        raise StoreError("Another edit has this number; reload the page.")
+    current, _editor = _current(connection, edit.annotation)
+    assert current is not None, "the journal names annotations that exist"
+    return Accepted(edit=edit.id, annotation=current)
+
+
+def _current(connection: Connection, uid: str) -> tuple[Annotation | None, str]:
+    statement = SELECT_ANNOTATIONS.where(schema.annotation.c.uid == uid)
+    row = connection.execute(statement.with_for_update(of=schema.annotation)).first()
+    return (None, "") if row is None else (annotation_of(row), row.edited_by)
+
+
+def _is_made_on(edit: Edit, current: Annotation) -> bool:
+    """A deleted annotation can only be brought back by whoever saw that it is deleted."""
+    return edit.base == current.revision and not (current.deleted and edit.cap is None)
+
+
+def _checked(connection: Connection, edit: Edit, categories: dict[str, int]) -> Cap | None:
+    photo = require_image(connection, edit.image)
+    if edit.cap is None:
+        if edit.base == 0:
+            raise StoreError("An annotation that was never made cannot be deleted.")
+        return None
+    if edit.cap.category not in categories:
+        raise StoreError(f"The project has no category “{edit.cap.category}”.")
+    if edit.cap.prediction is not None:
+        _require_prediction(connection, edit.cap.prediction, image_id=edit.image)
+    return check_cap(edit.cap, width=photo.width, height=photo.height)
+
+
+def _require_prediction(connection: Connection, prediction_id: int, *, image_id: int) -> None:
+    table = schema.prediction
+    found = connection.execute(
+        select(table.c.id).where(table.c.id == prediction_id, table.c.image == image_id)
+    ).first()
+    if found is None:
+        raise StoreError("The prediction this cap started from does not belong to this image.")
+
+
+def _store(
+    connection: Connection,
+    derived: Derived,
+    cap: Cap | None,
+    current: Annotation | None,
+    *,
+    user: str,
+    categories: dict[str, int],
+) -> Annotation:
+    edit, time = derived.edit, now()
+    revision = 1 if current is None else current.revision + 1
+    values = {"revision": revision, "deleted": cap is None, "edited_by": user, "edited_at": time}
+    if cap is not None:
+        values |= values_of_cap(cap, categories=categories)
+        values |= values_of_fit(derived.whole, derived.centre, derived.refusal)
+    table = schema.annotation
+    if current is None:
+        connection.execute(insert(table).values(uid=edit.annotation, image=edit.image, extra={}, **values))
+    else:
+        connection.execute(update(table).where(table.c.uid == edit.annotation).values(**values))
+    connection.execute(
+        insert(schema.edit).values(
+            id=edit.id,
+            digest=digest_of(edit),
+            annotation=edit.annotation,
+            image=edit.image,
+            base=edit.base,
+            revision=revision,
+            before=None if current is None or current.deleted else current.cap,
+            after=cap,
+            user=user,
+            made_at=time,
+        )
+    )
+    stored, _editor = _current(connection, edit.annotation)
+    assert stored is not None, "it was written just now"
+    return stored

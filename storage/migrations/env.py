@@ -1,0 +1,11 @@
+"""Run by alembic: migrates over the connection that ``storage.upgrade`` hands in."""
+
+from __future__ import annotations
+
+from alembic import context
+
+from storage.schema import metadata
+
+context.configure(connection=context.config.attributes["connection"], target_metadata=metadata)
+with context.begin_transaction():
+    context.run_migrations()

@@ -1,0 +1,137 @@
+"""What model runs said. Runs and predictions are added, never changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+from uuid import uuid4
+
+from msgspec import Struct, field
+from sqlalchemy import Connection, insert, select, update
+
+from storage.checking import are_finite, check_cap, check_name
+from storage.clock import now
+from storage.counting import recount
+from storage.errors import StoreError
+from storage.records import Cap, Outline, Run, Shape
+from storage.rows import (
+    ensure_category,
+    latest_run_row,
+    load_categories,
+    require_image,
+    run_of,
+    values_of_fit,
+)
+from storage.schema import image, prediction, run
+
+
+class NewPrediction(Struct, frozen=True, kw_only=True):
+    """One cap as a model saw it."""
+
+    visible: Outline
+    score: float
+    """0 to 1."""
+    category: str = "mushroom"
+    whole: Shape | None = None
+    centre: tuple[float, float] | None = None
+    uid: str | None = None
+    """The same again in the same run and image adds nothing."""
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+def add_run(
+    connection: Connection,
+    *,
+    name: str,
+    kind: Literal["import", "simulated", "network"],
+    weights: str | None = None,
+    settings: dict[str, Any] | None = None,
+    key: str | None = None,
+) -> Run:
+    """Enters what makes the predictions that follow.
+
+    Args:
+        connection: within ``Project.write``.
+        name: as people read it.
+        kind: whence the predictions come.
+        weights: SHA-256 of the weights.
+        settings: whatever else decides the result.
+        key: names a run that must not be made twice; an existing run of this key is returned.
+    """
+    check_name(name, "name of a run")
+    if key is not None:
+        known = connection.execute(select(run).where(run.c.key == key)).first()
+        if known is not None:
+            return run_of(known)
+    values = {
+        "name": name,
+        "kind": kind,
+        "made_at": now(),
+        "weights": weights,
+        "settings": settings or {},
+        "key": key,
+    }
+    return run_of(connection.execute(insert(run).values(**values).returning(run)).one())
+
+
+def add_predictions(
+    connection: Connection, *, run_id: int, image_id: int, predictions: Sequence[NewPrediction]
+) -> int:
+    """Stores what a run saw in an image (perhaps nothing) and returns how many were new.
+
+    Raises:
+        GeometryError: an outline cannot be used.
+        StoreError: no such image, or a score outside 0…1.
+    """
+    photo = require_image(connection, image_id)
+    categories = load_categories(connection)
+    known = set(
+        connection.execute(
+            select(prediction.c.uid).where(prediction.c.image == image_id, prediction.c.run == run_id)
+        ).scalars()
+    )
+    rows = [
+        _values(connection, new, categories, width=photo.width, height=photo.height)
+        | {"run": run_id, "image": image_id}
+        for new in predictions
+        if new.uid not in known
+    ]
+    if rows:
+        connection.execute(insert(prediction), rows)
+    saw(connection, run_id=run_id, image_ids=[image_id])
+    return len(rows)
+
+
+def saw(connection: Connection, *, run_id: int, image_ids: Sequence[int]) -> None:
+    """Makes the run the latest of these images, unless a later one saw them, and recounts."""
+    later = image.c.run.is_(None) | (image.c.run < run_id)
+    for image_id in image_ids:
+        connection.execute(update(image).where(image.c.id == image_id, later).values(run=run_id))
+    recount(connection, image_ids)
+
+
+def latest_run(connection: Connection) -> Run | None:
+    """The run made last."""
+    row = latest_run_row(connection)
+    return None if row is None else run_of(row)
+
+
+def list_runs(connection: Connection) -> list[Run]:
+    """All runs, the latest first."""
+    return [run_of(row) for row in connection.execute(select(run).order_by(run.c.id.desc()))]
+
+
+def _values(
+    connection: Connection, new: NewPrediction, categories: dict[str, int], *, width: int, height: int
+) -> dict[str, Any]:
+    if not are_finite([new.score]) or not 0 <= new.score <= 1:
+        raise StoreError(f"A score lies between 0 and 1, not at {new.score}.")
+    cap = check_cap(Cap(visible=new.visible, category=new.category), width=width, height=height)
+    return {
+        "uid": new.uid or uuid4().hex,
+        "category": ensure_category(connection, new.category, categories=categories, extra={}),
+        "visible": cap.visible,
+        "score": float(new.score),
+        "extra": new.extra,
+        **values_of_fit(new.whole, new.centre, None),
+    }

@@ -1,0 +1,150 @@
+"""From rows to records and back: the only place that knows which column holds which field."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+from sqlalchemy import Connection, Row, Select, func, insert, select
+
+from storage.errors import StoreError
+from storage.records import Annotation, Cap, Image, Mark, Prediction, Run
+from storage.schema import annotation, category, image, prediction, run
+
+Point = tuple[float, float]
+AnyRow = Row[*tuple[Any, ...]]
+AnySelect = Select[*tuple[Any, ...]]
+
+SELECT_ANNOTATIONS: AnySelect = select(annotation, category.c.name.label("category_name")).join(
+    category, annotation.c.category == category.c.id
+)
+SELECT_PREDICTIONS: AnySelect = select(prediction, category.c.name.label("category_name")).join(
+    category, prediction.c.category == category.c.id
+)
+
+
+def image_of(row: AnyRow) -> Image:
+    """A row of ``image``."""
+    return Image(
+        id=row.id,
+        file_name=row.file_name,
+        path=row.path,
+        width=row.width,
+        height=row.height,
+        sha256=row.sha256,
+        light=row.light,
+        form=row.form,
+        split=row.split,
+        status=row.status,
+        extra=row.extra,
+    )
+
+
+def annotation_of(row: AnyRow) -> Annotation:
+    """A row of ``SELECT_ANNOTATIONS``."""
+    return Annotation(
+        uid=row.uid,
+        image=row.image,
+        revision=row.revision,
+        cap=Cap(
+            visible=row.visible,
+            mark=row.mark,
+            ignored=row.ignored,
+            doubtful=row.doubtful,
+            order=row.overlap,
+            category=row.category_name,
+            prediction=row.prediction,
+        ),
+        deleted=row.deleted,
+        whole=row.whole,
+        centre=_centre_of(row),
+        extra=row.extra,
+    )
+
+
+def prediction_of(row: AnyRow) -> Prediction:
+    """A row of ``SELECT_PREDICTIONS``."""
+    return Prediction(
+        id=row.id,
+        run=row.run,
+        image=row.image,
+        visible=row.visible,
+        score=row.score,
+        category=row.category_name,
+        whole=row.whole,
+        centre=_centre_of(row),
+        extra=row.extra,
+    )
+
+
+def run_of(row: AnyRow) -> Run:
+    """A row of ``run``."""
+    return Run(
+        id=row.id,
+        name=row.name,
+        kind=row.kind,
+        made_at=row.made_at,
+        weights=row.weights,
+        settings=row.settings,
+    )
+
+
+def values_of_cap(cap: Cap, *, categories: dict[str, int]) -> dict[str, Any]:
+    """The columns of ``annotation`` that a person decides."""
+    return {
+        "visible": cap.visible,
+        "mark": cap.mark,
+        "ignored": cap.ignored,
+        "doubtful": cap.doubtful,
+        "overlap": cap.order,
+        "category": categories[cap.category],
+        "prediction": cap.prediction,
+    }
+
+
+def values_of_fit(whole: Mark | None, centre: Point | None, refusal: str | None) -> dict[str, Any]:
+    """The columns that are derived."""
+    x, y = centre or (None, None)
+    return {"whole": whole, "centre_x": x, "centre_y": y, "refusal": refusal}
+
+
+def load_categories(connection: Connection) -> dict[str, int]:
+    """Ids by name."""
+    return {row.name: row.id for row in connection.execute(select(category.c.name, category.c.id))}
+
+
+def ensure_category(
+    connection: Connection, name: str, *, categories: dict[str, int], extra: dict[str, Any]
+) -> int:
+    """The id of a category, made if the project lacks it; ``categories`` is kept up to date."""
+    if name not in categories:
+        result = connection.execute(insert(category).values(name=name, extra=extra).returning(category.c.id))
+        categories[name] = result.scalar_one()
+    return categories[name]
+
+
+def require_image(connection: Connection, image_id: int) -> AnyRow:
+    """The row of an image.
+
+    Raises:
+        StoreError: the project has no such image.
+    """
+    row = connection.execute(select(image).where(image.c.id == image_id)).first()
+    if row is None:
+        raise StoreError(f"The project has no image number {image_id}; reload the list of images.")
+    return row
+
+
+def latest_run_row(connection: Connection) -> AnyRow | None:
+    """The run made last."""
+    latest = select(func.max(run.c.id)).scalar_subquery()
+    return connection.execute(select(run).where(run.c.id == latest)).first()
+
+
+def encode(value: Any) -> bytes:
+    """JSON as the columns hold it."""
+    return msgspec.json.encode(value)
+
+
+def _centre_of(row: AnyRow) -> Point | None:
+    return None if row.centre_x is None else (row.centre_x, row.centre_y)
