@@ -1,0 +1,69 @@
+"""A cap's mask, cropped to its box, and the contour drawn around it.
+
+OpenCV names a contour by the *indices* of the outermost pixels inside the mask. Here such a point is where
+that pixel's centre lies, index + 0.5. The true edge runs a little outside it: see `RIM_INSET`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor, sqrt
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from model.geometry import Outline, Points, centres_of_pixels, part_of_points, points_of_part
+from model.raster import mask_of_outline
+
+RIM_INSET = sqrt(2) / np.pi
+"""How far the outermost pixel centres lie inside the edge that cut them: the mean of all directions, pixels.
+
+Along an edge whose normal is (nx, ny) their distance to it is spread evenly over [0, max(|nx|, |ny|)).
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Silhouette:
+    """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``."""
+
+    mask: NDArray[np.uint8]
+    left: int
+    top: int
+
+
+NOTHING = Silhouette(np.zeros((0, 0), np.uint8), 0, 0)
+
+
+def silhouette_of_outline(outline: Outline, *, width: int, height: int) -> Silhouette:
+    """The pixels of an image of this size that an outline covers; what lies outside the image is cut off.
+
+    Parts of fewer than three points cover nothing, nor does an outline with a coordinate that is not finite.
+    """
+    parts = [points_of_part(part) for part in outline if len(part) >= 6]
+    if not parts or not all(np.isfinite(part).all() for part in parts):
+        return NOTHING
+    every = np.concatenate(parts)
+    # Corners beyond the image are kept as they are: the rasteriser clips.
+    left, top = (max(0, floor(low)) for low in every.min(axis=0))
+    right, bottom = (
+        min(size, ceil(high)) for size, high in zip((width, height), every.max(axis=0), strict=True)
+    )
+    if right <= left or bottom <= top:
+        return NOTHING
+    local = [part_of_points(part - (left, top)) for part in parts]
+    return Silhouette(mask_of_outline(local, height=bottom - top, width=right - left), left, top)
+
+
+def contours_of(silhouette: Silhouette) -> list[Points]:
+    """The outer contours of all parts, the longest first, one point a contour pixel; holes are ignored."""
+    if not silhouette.mask.any():
+        return []
+    found, _ = cv2.findContours(
+        silhouette.mask,
+        cv2.RETR_EXTERNAL,
+        cv2.CHAIN_APPROX_NONE,
+        offset=(silhouette.left, silhouette.top),
+    )
+    contours = [centres_of_pixels(contour) for contour in found]
+    return sorted(contours, key=len, reverse=True)

@@ -1,0 +1,135 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from model.contour.circle import enclosing_circle
+from model.contour.reconstruct import METHODS, Reconstruction, reconstruct, reconstruct_silhouettes
+from model.contour.silhouette import Silhouette, contours_of
+from model.geometry import Circle, Ellipse, polygon_of_shape
+
+SIZE = {"width": 400, "height": 300}
+
+
+def outline(shape: Circle | Ellipse) -> list[list[float]]:
+    return [polygon_of_shape(shape)]
+
+
+def crescent(hidden: Circle, front: Circle) -> Silhouette:
+    y, x = np.mgrid[0:300, 0:400] + 0.5
+    seen = np.hypot(x - hidden.cx, y - hidden.cy) <= hidden.r
+    seen &= np.hypot(x - front.cx, y - front.cy) > front.r
+    return Silhouette(seen.astype(np.uint8), 0, 0)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_cap_in_full_view_is_found_where_it_is_and_as_large_as_it_is(method: str):
+    (found,) = reconstruct([outline(Circle(cx=120.3, cy=80.7, r=40))], method=method, **SIZE)
+    assert found.centre == pytest.approx((120.3, 80.7), abs=0.25)
+    assert isinstance(found.whole, Circle | Ellipse)
+    radius = found.whole.r if isinstance(found.whole, Circle) else math.sqrt(found.whole.a * found.whole.b)
+    assert radius == pytest.approx(40, abs=0.4)
+    assert found.shape == "regular"
+    assert found.refusal is None
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_mask_symmetric_about_a_pixel_centre_has_its_centre_there(method: str):
+    y, x = np.mgrid[0:41, 0:41]
+    mask = (np.hypot(x - 20, y - 20) <= 15.2).astype(np.uint8)
+    (found,) = reconstruct_silhouettes([Silhouette(mask, 100, 50)], method=method)
+    assert found.centre == pytest.approx((120.5, 70.5), abs=0.02)
+
+
+def test_the_paper_recovers_a_cap_a_third_of_which_is_hidden_where_the_plain_ellipse_does_not():
+    cap, front = Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40)
+    errors = {}
+    for method in ("paper", "literal", "ellipse"):
+        (found,) = reconstruct_silhouettes([crescent(cap, front)], method=method)
+        assert found.centre is not None
+        errors[method] = math.dist(found.centre, (cap.cx, cap.cy))
+    assert errors["paper"] < 0.6
+    assert errors["literal"] > 5
+    assert errors["ellipse"] > 5
+
+
+def test_the_paper_says_why():
+    (found,) = reconstruct_silhouettes(
+        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="paper"
+    )
+    assert found.shape == "irregular"
+    assert found.why.startswith("irregular: 2 corners; longest piece ")
+    assert "C* " in found.why
+
+
+def test_read_literally_no_concavity_makes_a_cap_irregular():
+    (found,) = reconstruct_silhouettes(
+        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="literal"
+    )
+    assert found.shape == "regular"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_only_the_wanted_caps_are_answered_in_the_order_asked(method: str):
+    caps = [outline(Circle(cx=60.0 + 80 * i, cy=100, r=30)) for i in range(4)]
+    found = reconstruct(caps, only=[2, 0], method=method, **SIZE)
+    assert [round(each.centre[0]) for each in found if each.centre] == [220, 60]
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    "cap",
+    [
+        [],
+        [[]],
+        [[1.0, 1.0, 5.0, 5.0]],
+        [[500.0, 10.0, 520.0, 10.0, 510.0, 30.0]],
+        [[1.0, 1.0, math.nan, 5.0, 9.0, 1.0]],
+    ],
+    ids=["no parts", "an empty part", "two points", "outside the image", "not a number"],
+)
+def test_a_cap_of_which_nothing_can_be_seen_is_refused_and_its_neighbour_is_not(
+    method: str, cap: list[list[float]]
+):
+    first, second = reconstruct([cap, outline(Circle(cx=100, cy=100, r=20))], method=method, **SIZE)
+    assert first.centre is None
+    assert first.whole is None
+    assert first.refusal
+    assert second.centre == pytest.approx((100, 100), abs=0.3)
+
+
+def test_an_unknown_method_is_an_error():
+    with pytest.raises(KeyError, match="guess"):
+        reconstruct([], method="guess", **SIZE)
+
+
+def check(found: Reconstruction, cap: Silhouette) -> None:
+    assert found.whole is not None
+    assert found.centre is not None
+    numbers = [value for name in found.whole.__struct_fields__ for value in [getattr(found.whole, name)]]
+    assert all(math.isfinite(value) for value in (*numbers, *found.centre, *(found.centre_sd or ())))
+    around = enclosing_circle(np.concatenate(contours_of(cap)))
+    assert math.dist(found.centre, (around.cx, around.cy)) <= around.r + 1
+
+
+@pytest.mark.parametrize("method", METHODS)
+@given(bits=st.lists(st.booleans(), min_size=49, max_size=49))
+def test_any_mask_gives_finite_numbers_near_it(method: str, bits: list[bool]):
+    mask = np.array(bits, np.uint8).reshape(7, 7)
+    cap = Silhouette(mask, 30, 40)
+    (found,) = reconstruct_silhouettes([cap], method=method)
+    if not mask.any():
+        assert found.refusal
+    else:
+        check(found, Silhouette(mask, 30, 40))
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("size", [(1, 1), (1, 2), (2, 2), (1, 40), (3, 3), (40, 1), (1000, 1000), (600, 3)])
+def test_caps_from_one_pixel_to_a_thousand_get_an_answer(method: str, size: tuple[int, int]):
+    cap = Silhouette(np.ones(size, np.uint8), 5, 5)
+    (found,) = reconstruct_silhouettes([cap], method=method)
+    check(found, cap)
+    assert found.centre == pytest.approx((5 + size[1] / 2, 5 + size[0] / 2), abs=0.6)
