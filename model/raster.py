@@ -1,0 +1,287 @@
+"""Outlines, masks and run-length codes: every step between them goes through pycocotools' one rasteriser.
+
+Outlines are those of ``model.geometry``. A mask is a uint8 array (height, width) of 0 and 1. An RLE is a
+COCO dictionary ``{"size": [height, width], "counts": str}`` (compressed, ready for JSON).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from msgspec.structs import astuple
+from numpy.typing import NDArray
+from pycocotools import mask as pycocotools_mask
+
+from model.crossing import self_contact, winds_once
+from model.geometry import (
+    Circle,
+    GeometryError,
+    Mark,
+    Outline,
+    Points,
+    Polygon,
+    canonical_ellipse,
+    part_of_points,
+    points_of_part,
+    signed_area,
+)
+from model.tracing import Component, Loop, components_of_mask, fit_polygon, join_holes, knots_of_loop
+
+Mask = NDArray[np.uint8]
+Rle = dict[str, Any]
+
+coco: Any = pycocotools_mask
+"""Untyped: its stubs know neither lists of polygons nor counts as text."""
+
+MAX_PIXELS = 1 << 30
+"""No mask larger than this is decoded: a size in a file costs nothing to write."""
+MAX_POINTS = 10_000
+"""Of one part."""
+REACH = 4
+"""How many image widths and heights a point may lie outside the image."""
+LEAST_AREA = 1e-3
+"""px²; below this a polygon has none."""
+
+TOLERANCE = 0.5
+"""px; how far a smooth outline's vertices may first lie from the midpoints between its edges."""
+ROUNDS = 4
+"""Attempts at a smooth outline before the pixels' edges are taken."""
+SMALL = 8
+"""Pixels up to which a component is drawn by its pixels' edges: a fit to so little is worth nothing."""
+
+
+def rle_of_outline(outline: Outline, *, height: int, width: int) -> Rle:
+    """The pixels whose centres the outline covers, its parts united.
+
+    Coordinates must be finite and of a sane size, as ``check_outline`` leaves them. Raises GeometryError
+    for a part of fewer than three points.
+    """
+    if not outline:
+        return rle_of_mask(np.zeros((height, width), np.uint8))
+    if any(len(part) < 6 for part in outline):
+        raise GeometryError("A polygon needs at least three points.")
+    codes = coco.frPyObjects(outline, height, width)
+    return _as_text(codes[0] if len(codes) == 1 else coco.merge(codes, intersect=False))
+
+
+def mask_of_outline(outline: Outline, *, height: int, width: int) -> Mask:
+    """``rle_of_outline`` as a mask (height, width)."""
+    return mask_of_rle(rle_of_outline(outline, height=height, width=width))
+
+
+def rle_of_mask(mask: Mask) -> Rle:
+    """Any array (height, width), non-zero where covered, as a compressed RLE."""
+    return _as_text(coco.encode(np.asfortranarray(mask != 0, dtype=np.uint8)))
+
+
+def mask_of_rle(rle: Rle) -> Mask:
+    """An RLE of ours, or one that ``check_rle`` has passed, as a mask (height, width)."""
+    return np.ascontiguousarray(coco.decode(rle))
+
+
+def area_of_rle(rle: Rle) -> int:
+    """Number of pixels."""
+    return int(coco.area(rle))
+
+
+def iou_matrix(first: Sequence[Rle], second: Sequence[Rle]) -> NDArray[np.float64]:
+    """(n, m) intersection over union of every pair; 0 where both are empty.
+
+    Raises GeometryError unless all have the same size.
+    """
+    if len({tuple(rle["size"]) for rle in (*first, *second)}) > 1:
+        raise GeometryError("Masks of different sizes cannot be compared.")
+    if not first or not second:
+        return np.zeros((len(first), len(second)))
+    return np.asarray(coco.iou(list(first), list(second), [0] * len(second)), dtype=np.float64)
+
+
+def check_rle(rle: Any) -> Rle:
+    """An RLE as a file holds it (counts a list, or a compressed string) as a compressed one, checked.
+
+    pycocotools writes past its buffers where the counts do not add up to the size, so nothing from outside
+    may reach it unchecked. Raises GeometryError.
+    """
+    if not isinstance(rle, dict) or "size" not in rle or "counts" not in rle:
+        raise GeometryError("The RLE lacks its size or its counts.")
+    size = rle["size"]
+    if not isinstance(size, list | tuple) or len(size) != 2 or any(type(n) is not int or n < 1 for n in size):
+        raise GeometryError("The size of an RLE must be two positive whole numbers, height and width.")
+    height, width = size
+    if height * width > MAX_PIXELS:
+        raise GeometryError(f"The RLE's size of {width} × {height} pixels is beyond all reason.")
+    counts = rle["counts"]
+    runs = _runs_of_text(counts) if isinstance(counts, str | bytes) else counts
+    if not isinstance(runs, list) or any(type(run) is not int or run < 0 for run in runs):
+        raise GeometryError("The counts of an RLE must be whole numbers, none below zero.")
+    if sum(runs) != height * width:
+        raise GeometryError(f"The counts of the RLE do not add up to its {width} × {height} pixels.")
+    return _as_text(coco.frPyObjects({"size": [height, width], "counts": runs}, height, width))
+
+
+def outline_of_rle(rle: Any) -> Outline:
+    """The outline of an RLE as a file holds it; GeometryError where it is not one or covers no pixel."""
+    outline = outline_of_mask(mask_of_rle(check_rle(rle)))
+    if not outline:
+        raise GeometryError("The RLE covers no pixel.")
+    return outline
+
+
+def outline_of_mask(mask: Mask) -> Outline:
+    """An outline that rasterises back to exactly this mask; one part a component (8-connected).
+
+    Vertices are few, rounded to 0.01 px, fitted by least squares to the points half way between inner and
+    outer pixels, so that the area is that of the mask and no rim is drawn in or out. Where such a smooth
+    polygon would change a pixel it gets more vertices there, and as a last resort the component follows
+    its pixels' edges. Holes are joined to their part by bridges.
+    """
+    pieces = components_of_mask(np.asarray(mask, np.uint8))
+    return [_part_of_component(piece, image=mask.shape[::-1]) for piece in pieces]
+
+
+def check_outline(outline: Any, *, width: int, height: int) -> Outline:
+    """The outline of a cap in an image of this size, as floats, fit to be stored.
+
+    Repeated vertices go. A part that crosses itself is replaced by what it covers of the image, as the
+    rasteriser sees it (even-odd), in one part or several. Raises GeometryError for what is not a list of
+    flat lists of finite numbers, for parts of fewer than three points, without area, of more than MAX_POINTS,
+    further out than REACH images or outside the image altogether.
+    """
+    if not isinstance(outline, list) or not outline:
+        raise GeometryError("The outline has no parts.")
+    return [checked for part in outline for checked in _check_part(part, width, height)]
+
+
+def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
+    """The mark, a polygon without repeated vertices; GeometryError where it makes no sense in the image."""
+    if isinstance(mark, Polygon):
+        points = _vertices(mark.points, width, height)
+        if self_contact(points) == "crosses":
+            raise GeometryError("The polygon crosses itself.")
+        if abs(signed_area(points)) < LEAST_AREA:
+            raise GeometryError("The polygon has no area.")
+        return Polygon(part_of_points(points))
+    figures = astuple(mark)
+    if any(type(figure) not in (int, float) or not math.isfinite(figure) for figure in figures):
+        raise GeometryError("A centre, a radius or an angle is not a finite number.")
+    _check_reach(np.array([figures[:2]], dtype=np.float64), width, height)
+    radii = (mark.r,) if isinstance(mark, Circle) else (mark.a, mark.b)
+    if min(radii) <= 0 or max(radii) > REACH * max(width, height):
+        raise GeometryError("A radius must be more than 0 and not many times the image.")
+    return mark if isinstance(mark, Circle) else canonical_ellipse(*figures)
+
+
+def _as_text(code: Rle) -> Rle:
+    return {"size": [int(side) for side in code["size"]], "counts": code["counts"].decode("ascii")}
+
+
+def _runs_of_text(text: str | bytes) -> list[int]:
+    """COCO's compressed counts: five bits a character, the sixth says more follow.
+
+    From the fourth on they are differences to the count before last. Raises GeometryError.
+    """
+    codes = text.encode("ascii", "replace") if isinstance(text, str) else text
+    runs: list[int] = []
+    value = shift = 0
+    for code in codes:
+        digit = code - 48
+        if not 0 <= digit < 64 or shift > 60:
+            raise GeometryError("The counts of the RLE are not in COCO's compressed form.")
+        value |= (digit & 31) << shift
+        shift += 5
+        if digit & 32:
+            continue
+        if digit & 16:
+            value -= 1 << shift
+        runs.append(value + runs[-2] if len(runs) > 2 else value)
+        value = shift = 0
+    if shift:
+        raise GeometryError("The counts of the RLE break off.")
+    return runs
+
+
+def _check_part(part: Any, width: int, height: int) -> Outline:
+    points = _vertices(part, width, height)
+    if (points.min(axis=0) >= (width, height)).any() or (points.max(axis=0) <= 0).any():
+        raise GeometryError("A polygon lies outside the image.")
+    if not winds_once(points):
+        contact = self_contact(points)
+        if contact == "crosses" or (contact == "touches" and not _fills_its_area(points)):
+            return _covered(part_of_points(points), width, height)
+    if abs(signed_area(points)) < LEAST_AREA:
+        raise GeometryError("A polygon has no area.")
+    return [part_of_points(points)]
+
+
+def _vertices(part: Any, width: int, height: int) -> Points:
+    """(n ≥ 3, 2) vertices of a flat list from outside, without repeated neighbours."""
+    if not isinstance(part, list) or len(part) % 2:
+        raise GeometryError("A polygon must be a flat list of x and y in turn.")
+    if not set(map(type, part)) <= {int, float}:
+        raise GeometryError("A polygon's coordinates must be numbers.")
+    try:
+        points = points_of_part(part)
+    except OverflowError:
+        raise GeometryError("A polygon's coordinates must be finite numbers.") from None
+    if len(points) > MAX_POINTS:
+        raise GeometryError(f"A polygon has {len(points)} points; {MAX_POINTS} are allowed.")
+    points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
+    if len(points) < 3:
+        raise GeometryError("A polygon needs at least three points.")
+    _check_reach(points, width, height)
+    return points
+
+
+def _check_reach(points: Points, width: int, height: int) -> None:
+    if not np.isfinite(points).all():
+        raise GeometryError("A polygon's coordinates must be finite numbers.")
+    size = np.array([width, height])
+    if (np.abs(points - size / 2) > (REACH + 0.5) * size).any():
+        raise GeometryError(f"A point lies far outside the image of {width} × {height} pixels.")
+
+
+def _fills_its_area(points: Points) -> bool:
+    """Whether even-odd filling covers the shoelace area: true of a bridge to a hole, not of an eight."""
+    low = np.floor(points.min(axis=0))
+    width, height = (int(side) for side in np.ceil(points.max(axis=0) - low))
+    code = rle_of_outline([part_of_points(points - low)], height=max(height, 1), width=max(width, 1))
+    rim = np.hypot(*(points - np.roll(points, 1, axis=0)).T).sum()
+    return abs(area_of_rle(code) - abs(signed_area(points))) <= 1 + rim / 2
+
+
+def _covered(part: list[float], width: int, height: int) -> Outline:
+    outline = outline_of_mask(mask_of_outline([part], height=height, width=width))
+    if not outline:
+        raise GeometryError("A polygon that crosses itself covers no pixel.")
+    return outline
+
+
+def _part_of_component(piece: Component, *, image: Sequence[int]) -> list[float]:
+    """``image`` is (width, height)."""
+    low = -np.array(piece.corner)
+    midpoints = [loop.midpoints for loop in piece.loops]
+    knots = [knots_of_loop(points, tolerance=TOLERANCE) for points in midpoints]
+    for _ in range(ROUNDS if piece.mask.sum() > SMALL else 0):
+        fits = [fit_polygon(*pair).clip(low, low + image) for pair in zip(midpoints, knots, strict=True)]
+        points = np.round(join_holes(fits[0], fits[1:]), 2)
+        wrong = _mask_of_points(points, piece.mask) != piece.mask
+        if not wrong.any():
+            return part_of_points(points - low)
+        knots = [_more_knots(*pair, wrong) for pair in zip(piece.loops, knots, strict=True)]
+    corners = [loop.corners for loop in piece.loops]
+    return part_of_points(join_holes(corners[0], corners[1:]) - low)
+
+
+def _mask_of_points(points: Points, like: Mask) -> Mask:
+    height, width = like.shape
+    return mask_of_outline([part_of_points(points)], height=height, width=width)
+
+
+def _more_knots(loop: Loop, knots: NDArray[np.int64], wrong: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The knots, and the cracks beside every pixel that came out wrong, with a neighbour on either side."""
+    (inner_x, inner_y), (outer_x, outer_y) = loop.inside.T, loop.outside.T
+    beside = wrong[inner_y, inner_x] | wrong[outer_y, outer_x]
+    return np.union1d(knots, np.flatnonzero(beside | np.roll(beside, 1) | np.roll(beside, -1)))
