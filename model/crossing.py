@@ -12,14 +12,19 @@ from model.geometry import Points
 PAIRS_AT_ONCE = 1 << 20
 
 
-def winds_once(points: Points) -> bool:
-    """True for a polygon (n, 2) seen whole from the mean of its vertices: surely simple, and quickly told."""
-    x, y = (points - points.mean(axis=0)).T
-    after_x, after_y = np.roll(x, -1), np.roll(y, -1)
-    turn = x * after_y - y * after_x
-    if not (turn > 0).all() and not (turn < 0).all():
-        return False
-    return np.count_nonzero((y < 0) & (after_y >= 0)) == 1
+def area_if_plainly_simple(xs: list[float], ys: list[float]) -> float:
+    """Area of a polygon seen whole from the mean of its vertices, which surely does not touch itself; else 0.
+
+    In plain Python: for the few dozen vertices of a usual outline that is several times faster than numpy.
+    """
+    middle_x, middle_y = sum(xs) / len(xs), sum(ys) / len(ys)
+    here_x, here_y = [x - middle_x for x in xs], [y - middle_y for y in ys]
+    next_x, next_y = here_x[1:] + here_x[:1], here_y[1:] + here_y[:1]
+    turns = [x * v - y * u for x, y, u, v in zip(here_x, here_y, next_x, next_y, strict=True)]
+    if min(turns) <= 0 <= max(turns):
+        return 0.0
+    times_round = len([1 for y, v in zip(here_y, next_y, strict=True) if y < 0 <= v])
+    return abs(sum(turns)) / 2 if times_round == 1 else 0.0
 
 
 def self_contact(points: Points) -> Literal["none", "touches", "crosses"]:

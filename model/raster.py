@@ -15,7 +15,7 @@ from msgspec.structs import astuple
 from numpy.typing import NDArray
 from pycocotools import mask as pycocotools_mask
 
-from model.crossing import self_contact, winds_once
+from model.crossing import area_if_plainly_simple, self_contact
 from model.geometry import (
     Circle,
     GeometryError,
@@ -44,6 +44,9 @@ REACH = 4
 """How many image widths and heights a point may lie outside the image."""
 LEAST_AREA = 1e-3
 """px²; below this a polygon has none."""
+
+NUMBERS = {int, float}
+"""The types a coordinate may have; bool, which Python counts among the integers, is not one."""
 
 TOLERANCE = 0.5
 """px; how far a smooth outline's vertices may first lie from the midpoints between its edges."""
@@ -204,30 +207,43 @@ def _runs_of_text(text: str | bytes) -> list[int]:
 
 
 def _check_part(part: Any, width: int, height: int) -> Outline:
+    if _plainly_good(part, width, height):
+        return [list(map(float, part))]
     points = _vertices(part, width, height)
     if (points.min(axis=0) >= (width, height)).any() or (points.max(axis=0) <= 0).any():
         raise GeometryError("A polygon lies outside the image.")
-    if not winds_once(points):
-        contact = self_contact(points)
-        if contact == "crosses" or (contact == "touches" and not _fills_its_area(points)):
-            return _covered(part_of_points(points), width, height)
+    contact = self_contact(points)
+    if contact == "crosses" or (contact == "touches" and not _fills_its_area(points)):
+        return _covered(part_of_points(points), width, height)
     if abs(signed_area(points)) < LEAST_AREA:
         raise GeometryError("A polygon has no area.")
     return [part_of_points(points)]
+
+
+def _plainly_good(part: Any, width: int, height: int) -> bool:
+    """Whether a part is of the usual kind, near the image and all in sight of its middle: a quick way out."""
+    if not isinstance(part, list) or len(part) % 2 or not 6 <= len(part) <= 2 * MAX_POINTS:
+        return False
+    if not set(map(type, part)) <= NUMBERS or not math.isfinite(sum(part)):
+        return False
+    xs, ys = part[::2], part[1::2]
+    near = -width <= min(xs) < width and -height <= min(ys) < height
+    near = near and 0 < max(xs) <= 2 * width and 0 < max(ys) <= 2 * height
+    return near and area_if_plainly_simple(xs, ys) >= LEAST_AREA
 
 
 def _vertices(part: Any, width: int, height: int) -> Points:
     """(n ≥ 3, 2) vertices of a flat list from outside, without repeated neighbours."""
     if not isinstance(part, list) or len(part) % 2:
         raise GeometryError("A polygon must be a flat list of x and y in turn.")
-    if not set(map(type, part)) <= {int, float}:
+    if not set(map(type, part)) <= NUMBERS:
         raise GeometryError("A polygon's coordinates must be numbers.")
+    if len(part) > 2 * MAX_POINTS:
+        raise GeometryError(f"A polygon has {len(part) // 2} points; {MAX_POINTS} are allowed.")
     try:
         points = points_of_part(part)
     except OverflowError:
         raise GeometryError("A polygon's coordinates must be finite numbers.") from None
-    if len(points) > MAX_POINTS:
-        raise GeometryError(f"A polygon has {len(points)} points; {MAX_POINTS} are allowed.")
     points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
     if len(points) < 3:
         raise GeometryError("A polygon needs at least three points.")
