@@ -1,0 +1,66 @@
+"""The top of the panel: which image, which run, who, and whether everything is saved."""
+
+from __future__ import annotations
+
+from app.panels.callbacks import Redraw
+from app.panels.markup import Markup, element
+from app.session import Session
+from app.workspace import Workspace
+from storage.records import Run
+
+STATUS_WORDS = {"new": "not begun", "annotated": "annotated", "approved": "approved"}
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """The header."""
+    shown = session.client.gui.add_html("")
+
+    async def redraw() -> None:
+        shown.content = header(workspace.project.name, session).html
+
+    return redraw
+
+
+def header(project: str, session: Session) -> Markup:
+    """The header of a tab as it stands."""
+    return element(
+        "header",
+        element("div", *_image_line(session), class_="fr-line"),
+        element("div", *_person_line(project, session), class_="fr-line fr-quiet"),
+        class_="fr-header",
+    )
+
+
+def _image_line(session: Session) -> list[Markup]:
+    image = session.image
+    if image is None:
+        return [element("strong", "No image open")]
+    return [
+        element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
+        element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
+        element("span", f"{session.position + 1} of {session.count}", class_="fr-count"),
+    ]
+
+
+def _person_line(project: str, session: Session) -> list[Markup]:
+    run = session.document.run if session.document else None
+    return [
+        element("span", project, class_="fr-ellipsis", title=f"Project {project}"),
+        run_badge(run) if run else element("span", "no predictions"),
+        element("a", session.user, href="/name", title="Not you? Change the name"),
+        _saved(session.waiting),
+    ]
+
+
+def run_badge(run: Run) -> Markup:
+    """A run's name; one that only imitates a network is called that plainly."""
+    if run.kind == "simulated":
+        warning = "These predictions are true masks distorted by a noise model; no network has seen the photo."
+        return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
+    return element("span", run.name, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")
+
+
+def _saved(waiting: int) -> Markup:
+    if waiting:
+        return element("span", f"saving {waiting}…", class_="fr-saving", data_fairyring_saved="no")
+    return element("span", "saved", class_="fr-saved", data_fairyring_saved="yes")
