@@ -27,7 +27,7 @@ MOST_UNSENT = 2000
 LAYERS = {
     "photo": True,
     "outline": True,
-    "fill": False,
+    "fill": True,
     "whole": True,
     "centre": True,
     "label": False,

@@ -38,6 +38,7 @@ from storage.project import open_project
 log = logging.getLogger(__name__)
 
 Result = TypeVar("Result")
+GREEN = (47, 111, 79)
 PANEL_WIDTH = 380
 """Pixels."""
 LARGEST_FRAME = 64 * 2**20
@@ -173,7 +174,7 @@ def _start_viser(port: int, project_name: str) -> viser.ViserServer:
         panels.stop()
         raise ServerError("The port found for the panels was taken meanwhile; start again.")
     panels.scene.world_axes.visible = False
-    panels.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
+    panels.gui.configure_theme(show_logo=False, show_share_button=False, brand_color=GREEN)
     panels.gui.main_panel.dock_right()
     panels.gui.main_panel.set_width(PANEL_WIDTH)
     return panels

@@ -107,7 +107,8 @@ def _policy(*scripts: bytes) -> str:
     return "; ".join(
         (
             "default-src 'none'",
-            f"script-src 'self' 'wasm-unsafe-eval' {hashes}",
+            # viser's WebAssembly names its functions by evaluating a string.
+            f"script-src 'self' 'unsafe-eval' {hashes}",
             "style-src 'self' 'unsafe-inline'",
             "img-src 'self' data: blob:",
             "font-src 'self' data:",

@@ -100,21 +100,28 @@ async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage
 def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
     """A page of the list; the row of the image on screen stands out."""
     if not page.rows:
-        return element("p", "No image fits these filters.", class_="fr-quiet")
+        return element("div", "No image fits these filters.", class_="fr-images fr-quiet")
     first = number * PAGE + 1
     counted = f"{first}–{first + len(page.rows) - 1} of {page.total} images"
-    head = element("tr", *(element("th", title) for title in ("", "Image", "Caps", "CDR %")))
+    head = element(
+        "tr",
+        element("th", width=68),
+        element("th", "Image"),
+        element("th", "Caps", class_="fr-number", width=48),
+        element("th", "CDR %", class_="fr-number", width=52),
+    )
     rows = (_row(row, current=row.image.id == current) for row in page.rows)
     return element(
         "div",
         element("table", element("thead", head), element("tbody", *rows), class_="fr-list"),
         element("div", counted, class_="fr-quiet"),
+        class_="fr-images",
     )
 
 
 def _row(row: ImageRow, *, current: bool) -> Markup:
     image = row.image
-    thumbnail = element("img", src=f"{url_of_photo(image)}?w=160", alt="", loading="lazy", width=48, height=32)
+    thumbnail = element("img", src=f"{url_of_photo(image)}?w=160", alt="", loading="lazy")
     caps = element("span", row.caps, title=f"{row.ignored} ignored, {row.predicted} predicted")
     name = element("span", image.file_name, class_="fr-ellipsis", title=image.file_name)
     status = element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}")

@@ -63,7 +63,7 @@ def finished(workspace: Workspace, session: Session, job: Job) -> None:
 def job_list(jobs: list[Job]) -> Markup:
     """The list, newest first."""
     if not jobs:
-        return element("p", "Nothing has run yet.", class_="fr-quiet")
+        return element("div", "Nothing has run yet.", class_="fr-jobs fr-quiet")
     return element("ul", *(_row(job) for job in jobs), class_="fr-jobs")
 
 

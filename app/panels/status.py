@@ -11,22 +11,22 @@ from storage.records import Run
 STATUS_WORDS = {"new": "not begun", "annotated": "annotated", "approved": "approved"}
 
 
-def build(workspace: Workspace, session: Session) -> Redraw:
+def build(_workspace: Workspace, session: Session) -> Redraw:
     """The header."""
     shown = session.client.gui.add_html("")
 
     async def redraw() -> None:
-        shown.content = header(workspace.project.name, session).html
+        shown.content = header(session).html
 
     return redraw
 
 
-def header(project: str, session: Session) -> Markup:
+def header(session: Session) -> Markup:
     """The header of a tab as it stands."""
     return element(
         "header",
         element("div", *_image_line(session), class_="fr-line"),
-        element("div", *_person_line(project, session), class_="fr-line fr-quiet"),
+        element("div", *_person_line(session), class_="fr-line fr-quiet"),
         class_="fr-header",
     )
 
@@ -38,16 +38,15 @@ def _image_line(session: Session) -> list[Markup]:
     return [
         element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
         element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
-        element("span", f"{session.position + 1} of {session.count}", class_="fr-count"),
+        element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
     ]
 
 
-def _person_line(project: str, session: Session) -> list[Markup]:
+def _person_line(session: Session) -> list[Markup]:
     run = session.document.run if session.document else None
     return [
-        element("span", project, class_="fr-ellipsis", title=f"Project {project}"),
         run_badge(run) if run else element("span", "no predictions"),
-        element("a", session.user, href="/name", title="Not you? Change the name"),
+        element("a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"),
         _saved(session.waiting),
     ]
 

@@ -13,10 +13,10 @@ from app.workspace import Workspace
 from storage.records import Status
 
 TOOLS = (
-    ("select", "Select and edit", "V"),
-    ("polygon", "Draw a cap", "B"),
-    ("circle", "Mark a circle", "C"),
-    ("pan", "Move the view", "Space"),
+    ("select", "Select", "V"),
+    ("polygon", "Outline", "P"),
+    ("circle", "Circle", "C"),
+    ("pan", "Pan", "Space"),
 )
 COMMANDS = (
     ("undo", "Undo", "Ctrl+Z"),
@@ -58,21 +58,29 @@ def toolbar() -> Markup:
     """Buttons that the editor listens to: tools above, commands below."""
     return element(
         "div",
-        element(
-            "div", *(_button("tool", *tool) for tool in TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"
-        ),
-        element("div", *(_button("command", *command) for command in COMMANDS), class_="fr-commands"),
+        element("div", *(_tool(*tool) for tool in TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"),
+        element("div", *(_command(*command) for command in COMMANDS), class_="fr-commands"),
         class_="fr-toolbar",
     )
 
 
-def _button(kind: Literal["tool", "command"], name: str, label: str, key: str) -> Markup:
+def _tool(name: str, label: str, key: str) -> Markup:
     return element(
         "button",
         icon(name),
-        element("kbd", key),
+        element("span", label, element("kbd", key)),
+        type="button",
+        title=f"{label} ({key})",
+        data_fairyring_tool=name,
+    )
+
+
+def _command(name: str, label: str, key: str) -> Markup:
+    return element(
+        "button",
+        icon(name),
         type="button",
         title=f"{label} ({key})",
         aria_label=label,
-        **{f"data_fairyring_{kind}": name},
+        data_fairyring_command=name,
     )
