@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct, structs
-from sqlalchemy import Connection, Table, insert, select
+from sqlalchemy import Connection, Table, insert, select, update
 
 from model.geometry import polygon_of_shape
 from storage import schema
@@ -55,6 +55,12 @@ def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
     )
     number = connection.execute(statement.returning(schema.image.c.id)).scalar_one()
     return structs.replace(photo, id=number)
+
+
+def tell_more(connection: Connection, photo: Photo) -> None:
+    """Enters what an import has learnt about an image of the project."""
+    told = {name: getattr(photo, name) for name in ("light", "form", "split", "extra")}
+    connection.execute(update(schema.image).where(schema.image.c.id == photo.id).values(**told))
 
 
 def enter_annotations(

@@ -18,6 +18,7 @@ from storage.entering import (
     enter_photo,
     enter_predictions,
     refused_as_prediction,
+    tell_more,
 )
 from storage.errors import StoreError
 from storage.formats.found import Problem, Progress
@@ -130,6 +131,9 @@ def _store(
     for photo in new:
         path = str(photo.source and photo.source.resolve()) if link else f"{IMAGES}/{photo.file_name}"
         photos[photo.file_name] = enter_photo(connection, photo, path=path)
+    for name in intake.seen:
+        if intake.photos[name].id is not None and intake.photos[name] != photos[name]:
+            tell_more(connection, intake.photos[name])
     labelled = [Labelled(photo=photos[name], caps=caps) for name, caps in intake.caps.items()]
     categories = {name: extra for d in sources.documents for name, extra in d.found.categories.items()}
     annotations, predictions, run = Entered(), Entered(), None

@@ -87,18 +87,30 @@ def _take_labels(
     intake: Intake, document: Document, image: FoundImage, *, light: str | None, form: str | None
 ) -> None:
     photo = _photo_of(intake, document.path, image)
+    intake.photos[photo.file_name] = _told_more(photo, image, light=light, form=form)
+    intake.seen.add(photo.file_name)
+    caps, problems = fit_caps(image.caps, photo=photo, file=str(document.path))
+    intake.caps.setdefault(photo.file_name, []).extend(caps)
+    intake.problems.extend(problems)
+
+
+def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str | None) -> Photo:
+    """Adds what a file says of a photo; what the project knows already is not changed by an import."""
     if photo.id is None:
-        intake.photos[photo.file_name] = structs.replace(
+        return structs.replace(
             photo,
             light=image.light or photo.light or light,
             form=image.form or photo.form or form,
             split=image.split or photo.split,
             extra=photo.extra | image.extra,
         )
-    intake.seen.add(photo.file_name)
-    caps, problems = fit_caps(image.caps, photo=photo, file=str(document.path))
-    intake.caps.setdefault(photo.file_name, []).extend(caps)
-    intake.problems.extend(problems)
+    return structs.replace(
+        photo,
+        light=photo.light or image.light,
+        form=photo.form or image.form,
+        split=photo.split or image.split,
+        extra=image.extra | photo.extra,
+    )
 
 
 def _photo_of(intake: Intake, document: Path, image: FoundImage) -> Photo:

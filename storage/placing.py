@@ -41,9 +41,8 @@ class Photo(Struct, frozen=True, kw_only=True):
 
 def photos_of_project(connection: Connection) -> dict[str, Photo]:
     """What the project holds, by base name."""
-    image = schema.image
-    columns = (image.c.id, image.c.file_name, image.c.width, image.c.height, image.c.sha256)
-    return {row.file_name: Photo(**row._mapping) for row in connection.execute(select(*columns))}
+    columns = [schema.image.c[name] for name in Photo.__struct_fields__ if name != "source"]
+    return {row["file_name"]: Photo(**row) for row in connection.execute(select(*columns)).mappings()}
 
 
 def examine(path: Path) -> Photo:
