@@ -5,12 +5,13 @@ Neighbours matter only where they touch, so a single cap is reconstructed among 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TypeVar
 
 from app.gateway.messages import Fit, Refit
+from app.nearby import keys_near
 from model.contour.marks import whole_of_mark
 from model.contour.reconstruct import Reconstruction, reconstruct
 from model.errors import FairyringError
@@ -42,15 +43,16 @@ class Whole:
         return (self.shape.cx, self.shape.cy) if self.shape else None
 
 
-def whole_of(visible: Outline, mark: Mark | None, *, image: Image, around: Iterable[Outline]) -> Whole:
+def whole_of(visible: Outline, mark: Mark | None, *, image: Image, around: Mapping[str, Outline]) -> Whole:
     """The whole outline of one cap; ``around`` holds the visible outlines of the image's other caps."""
     if mark is not None:
         return _from_mark(mark)
-    return _wholes([visible, *_neighbours(visible, around)], [0], image=image)[0]
+    neighbours = [around[key] for key in keys_near(visible, around, reach=REACH)]
+    return _wholes([visible, *neighbours], [0], image=image)[0]
 
 
 def outlines_of(document: Document, annotations: Mapping[str, Annotation]) -> dict[str, Outline]:
-    """What is visible of every cap of an image: the live annotations, and the predictions nobody has touched."""
+    """What is visible of every cap: the live annotations, and the predictions nobody has touched."""
     touched = {annotation.cap.prediction for annotation in annotations.values()}
     live = {uid: a.cap.visible for uid, a in annotations.items() if not a.deleted}
     return live | {_key(p.id): p.visible for p in document.predictions if p.id not in touched}
@@ -61,9 +63,13 @@ def refit(document: Document, annotations: Mapping[str, Annotation], request: Re
     cap, around = request.cap, outlines_of(document, annotations)
     around.pop(request.annotation, None)
     around.pop(_key(cap.prediction), None)
-    whole = whole_of(cap.visible, cap.mark, image=document.image, around=around.values())
+    whole = whole_of(cap.visible, cap.mark, image=document.image, around=around)
     return Fit(
-        seq=request.seq, annotation=request.annotation, whole=whole.shape, centre=whole.centre, note=whole.note
+        seq=request.seq,
+        annotation=request.annotation,
+        whole=whole.shape,
+        centre=whole.centre,
+        note=whole.note,
     )
 
 
@@ -161,7 +167,7 @@ def _stored(whole: Whole) -> derived.Fit:
 def _derive(edit: Edit, image: Image | None, caps: Mapping[str, Outline]) -> Derived:
     if edit.cap is None or image is None:
         return Derived(edit=edit)
-    around = [outline for key, outline in caps.items() if key != edit.annotation]
+    around = {key: outline for key, outline in caps.items() if key != edit.annotation}
     fit = _stored(whole_of(edit.cap.visible, edit.cap.mark, image=image, around=around))
     return Derived(edit=edit, whole=fit.whole, centre=fit.centre, refusal=fit.refusal)
 
@@ -175,26 +181,3 @@ def _enter(caps: dict[str, Outline], edit: Edit) -> None:
 
 def _key(prediction: int | None) -> str:
     return f"prediction {prediction}"
-
-
-def _neighbours(outline: Outline, around: Iterable[Outline]) -> list[Outline]:
-    box = _box(outline)
-    if box is None:
-        return []
-    left, top, right, bottom = box
-    reach = REACH * max(right - left, bottom - top)
-    return [
-        other
-        for other in around
-        if (near := _box(other)) is not None
-        and near[0] <= right + reach
-        and near[2] >= left - reach
-        and near[1] <= bottom + reach
-        and near[3] >= top - reach
-    ]
-
-
-def _box(outline: Outline) -> tuple[float, float, float, float] | None:
-    xs = [x for part in outline for x in part[0::2]]
-    ys = [y for part in outline for y in part[1::2]]
-    return (min(xs), min(ys), max(xs), max(ys)) if xs and ys else None

@@ -19,13 +19,14 @@ log = logging.getLogger(__name__)
 
 
 async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
-    """Stores a change set and acknowledges it; the acknowledgement is sent after the transaction is on disk."""
+    """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
     outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.user)
     session.send(Outcomes(outcomes=outcomes))
     accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
     session.take_in(accepted)
     session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
     for image_id in {annotation.image for annotation in accepted}:
+        workspace.reviewer.touch(image_id)
         changed = [annotation for annotation in accepted if annotation.image == image_id]
         for tab in workspace.tabs.others_on(image_id, besides=session):
             tab.take_in(changed)
@@ -33,8 +34,7 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
             tab.refresh("cap")
     session.refresh("cap", "status")
     if accepted:
-        for tab in workspace.tabs:
-            tab.refresh("images", "review")
+        workspace.refresh("images")
 
 
 def _store(workspace: Workspace, edits: Sequence[Edit], user: str) -> list[Outcome]:

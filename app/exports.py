@@ -11,26 +11,25 @@ from zipfile import ZIP_STORED, ZipFile
 
 from app.derive import fill_in
 from app.jobs import Progress, Result
-from app.workspace import Workspace
 from storage.exporting import export_coco
+from storage.project import Project
 
 Only = Literal["annotated", "approved", "predicted", "all"]
 KEPT = 3
 """Zip files that stay in the cache."""
 
 
-def exports_folder(workspace: Workspace) -> Path:
+def exports_folder(project: Project) -> Path:
     """Where the zip files lie."""
-    return workspace.project.folder / "cache" / "exports"
+    return project.folder / "cache" / "exports"
 
 
-def export_work(workspace: Workspace, *, only: Only) -> Callable[[Progress], Result]:
+def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]:
     """The work of an export job: whole outlines that are missing, the data set, the zip file."""
 
     def work(progress: Progress) -> Result:
-        project = workspace.project
         fill_in(project, progress=progress)
-        exports = exports_folder(workspace)
+        exports = exports_folder(project)
         exports.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=exports) as folder:
             report = export_coco(project, Path(folder) / "coco", only=only, progress=progress)

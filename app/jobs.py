@@ -19,15 +19,15 @@ log = logging.getLogger(__name__)
 
 State = Literal["running", "done", "failed", "cancelled"]
 Progress = Callable[[int, int, str], None]
-"""Called with (done, total, what is being done); raises Cancelled once somebody wants the job to stop."""
+"""Called with (done, total, what is being done); raises CancelledError once somebody wants the job to stop."""
 
 KEPT = 12
 """Finished jobs that stay listed."""
 UNEXPECTED = "This stopped because of an error in Fairyring itself; the server's log says more."
 
 
-class Cancelled(Exception):
-    """Raised inside a job's work by its progress callback, so that the work unwinds and changes nothing more."""
+class CancelledError(Exception):
+    """Raised inside a job's work by its progress callback, so that the work unwinds."""
 
 
 @dataclass(eq=False, kw_only=True)
@@ -54,7 +54,7 @@ class Job:
     def report(self, done: int, total: int, what: str) -> None:
         """The progress callback handed to the work; called from its thread."""
         if self.stop.is_set():
-            raise Cancelled
+            raise CancelledError
         self.done, self.total, self.what = done, total, what
 
 
@@ -104,11 +104,13 @@ class Jobs:
             job.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
-    async def _run(self, job: Job, work: Callable[[Progress], Result], finished: Callable[[Job], None]) -> None:
+    async def _run(
+        self, job: Job, work: Callable[[Progress], Result], finished: Callable[[Job], None]
+    ) -> None:
         try:
             result = await anyio.to_thread.run_sync(work, job.report, limiter=self._places)
             job.state, job.message, job.link = "done", result.message, result.link
-        except Cancelled:
+        except CancelledError:
             job.state, job.message = "cancelled", "Cancelled; what was done so far is kept."
         except FairyringError as error:
             job.state, job.message = "failed", str(error)

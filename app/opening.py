@@ -11,9 +11,9 @@ from app.gateway.messages import Show
 from app.gateway.photos import url_of_photo
 from app.session import Selection, Session
 from app.workspace import Workspace
+from storage import images
 from storage.documents import load_document
 from storage.errors import StoreError
-from storage import images
 from storage.images import Place
 from storage.records import Document, Status
 
@@ -21,7 +21,9 @@ CHANGES_IMAGE = ("status", "images", "cap", "review")
 """The parts of the panel that depend on the image on screen."""
 
 
-async def open_image(workspace: Workspace, session: Session, image_id: int, *, select: str | None = None) -> None:
+async def open_image(
+    workspace: Workspace, session: Session, image_id: int, *, select: str | None = None
+) -> None:
     """Shows an image in a tab. Raises StoreError where the project has no such image."""
     wanted = session.filter
 
@@ -57,7 +59,9 @@ async def reopen(workspace: Workspace, session: Session, image_id: int | None) -
             return
         except StoreError as gone:
             session.notify(str(gone), "warning")
-    first = await workspace.read(lambda connection: images.list_images(connection, session.filter, limit=1).rows)
+    first = await workspace.read(
+        lambda connection: images.list_images(connection, session.filter, limit=1).rows
+    )
     if first:
         await open_image(workspace, session, first[0].image.id)
     else:
@@ -74,7 +78,9 @@ async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> No
     place = await workspace.read(lambda connection: images.place_in_list(connection, session.filter, here))
     target = place.next if by == 1 else place.previous
     if target is None:
-        session.notify("This is the last image of the list." if by == 1 else "This is the first image of the list.")
+        session.notify(
+            "This is the last image of the list." if by == 1 else "This is the first image of the list."
+        )
     else:
         await open_image(workspace, session, target)
 

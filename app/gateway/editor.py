@@ -8,8 +8,8 @@ from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 import msgspec
-from starlette.websockets import WebSocket, WebSocketDisconnect
 from msgspec import Struct
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from app.editing import Refits, apply_edits
 from app.gateway.messages import (
@@ -59,7 +59,7 @@ def editor_of(workspace: Workspace) -> Callable[[WebSocket], Awaitable[None]]:
         hello = await _hello(socket)
         session = workspace.tabs.claim(hello.token, user) if hello else None
         if hello is None or session is None:
-            with suppress(RuntimeError):
+            with suppress(RuntimeError, WebSocketDisconnect):
                 await socket.close(NO_TAB, "This token is not known, or was used before.")
             return
         try:
@@ -94,11 +94,11 @@ async def _talk(workspace: Workspace, session: Session, socket: WebSocket, hello
         await asyncio.gather(sending, receiving, return_exceptions=True)
     for task in done:
         if task.cancelled():
-            with suppress(RuntimeError):
+            with suppress(RuntimeError, WebSocketDisconnect):
                 await socket.close(GONE)
         elif error := task.exception():
             log.error("A tab of %s was closed by an error.", session.user, exc_info=error)
-            with suppress(RuntimeError):
+            with suppress(RuntimeError, WebSocketDisconnect):
                 await socket.close(1011)
 
 

@@ -50,7 +50,10 @@ def relay_to(port: int) -> Callable[[WebSocket], Awaitable[None]]:
 
 async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
     """Carries frames both ways until either side closes, then closes the other with the same code."""
-    pumps = {asyncio.create_task(_to_viser(browser, upstream)), asyncio.create_task(_to_browser(browser, upstream))}
+    pumps = {
+        asyncio.create_task(_to_viser(browser, upstream)),
+        asyncio.create_task(_to_browser(browser, upstream)),
+    }
     try:
         done, _ = await asyncio.wait(pumps, return_when=asyncio.FIRST_COMPLETED)
         code, reason = done.pop().result()
@@ -60,7 +63,10 @@ async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
         await asyncio.gather(*pumps, return_exceptions=True)
     code = GOING_AWAY if code in UNSENDABLE else code
     await upstream.close(code, reason)
-    if browser.application_state is WebSocketState.CONNECTED and browser.client_state is WebSocketState.CONNECTED:
+    if (
+        browser.application_state is WebSocketState.CONNECTED
+        and browser.client_state is WebSocketState.CONNECTED
+    ):
         await browser.close(code, reason)
 
 

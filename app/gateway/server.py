@@ -7,7 +7,6 @@ import contextlib
 import io
 import logging
 import socket
-import threading
 import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
@@ -90,7 +89,7 @@ def make_app(workspace: Workspace) -> Starlette:
         try:
             yield
         finally:
-            await workspace.jobs.close()
+            await workspace.close()
             await asyncio.to_thread(_quietly, panels.stop)
 
     cache_limit = workspace.settings.photo_cache_mb * 2**20
@@ -101,7 +100,7 @@ def make_app(workspace: Workspace) -> Starlette:
             WebSocketRoute("/editor", editor_of(workspace)),
             Route("/name", name_page, methods=["GET", "POST"]),
             Route("/photos/{image:int}/{sha}", photos_of(workspace.project, cache_limit=cache_limit)),
-            Route("/downloads/{name}", downloads_of(workspace)),
+            Route("/downloads/{name}", downloads_of(workspace.project)),
             Route("/healthz", _healthz),
             Mount("/static", EditorFiles()),
         ],

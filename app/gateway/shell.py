@@ -33,11 +33,10 @@ HEAD = """
   </head>"""
 COMING_BACK = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>Fairyring</title>'
 
-_DIGITS = (
-    "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
-)
+_DIGITS = "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
 _BOOTSTRAP = re.compile(
-    r'<script data-p="(?P<packed>[^"]*)" data-ss="(?P<style>\d+)" data-cs="(?P<code>\d+)">(?P<script>.*?)</script>',
+    r'<script data-p="(?P<packed>[^"]*)" data-ss="(?P<style>\d+)" data-cs="(?P<code>\d+)">'
+    r"(?P<script>.*?)</script>",
     re.DOTALL,
 )
 
@@ -76,20 +75,22 @@ def load_shell() -> Shell:
     bootstrap = _BOOTSTRAP.search(page)
     if bootstrap is None or "</head>" not in page:
         raise FairyringError(f"{index} is not the page of viser 1.1.1; install viser==1.1.1 again.")
-    style, code = _unpack(bootstrap)
-    html = re.sub(r"<title>.*?</title>|<link\s+rel=\"icon\"[^>]*>", "", page[: bootstrap.start()], flags=re.DOTALL)
+    code = _unpack_module(bootstrap)
+    html = re.sub(
+        r"<title>.*?</title>|<link\s+rel=\"icon\"[^>]*>", "", page[: bootstrap.start()], flags=re.DOTALL
+    )
     html += page[bootstrap.start() :].replace("</head>", HEAD, 1)
     return Shell(html=html, policy=_policy(bootstrap["script"].encode(), code))
 
 
-def _unpack(bootstrap: re.Match[str]) -> tuple[bytes, bytes]:
+def _unpack_module(bootstrap: re.Match[str]) -> bytes:
     packed, style_length = _from_base88(bootstrap["packed"]), int(bootstrap["style"])
     unpacked = zstandard.decompress(packed, max_output_size=style_length + int(bootstrap["code"]))
-    return unpacked[:style_length], unpacked[style_length:]
+    return unpacked[style_length:]
 
 
 def _from_base88(text: str) -> bytes:
-    """Five digits make four bytes, most significant first; a shorter last group, one byte fewer than digits."""
+    """Five digits make four bytes, most significant first; a shorter last group one byte less than digits."""
     digit_of = np.zeros(128, np.int64)
     digit_of[np.frombuffer(_DIGITS.encode(), np.uint8)] = np.arange(len(_DIGITS))
     digits = digit_of[np.frombuffer(text.encode(), np.uint8)]

@@ -40,7 +40,9 @@ async def _reported(session: Session, work: Callable[[], Awaitable[None]]) -> No
         session.notify(str(error), "error")
     except Exception:
         log.exception("Something in the panel of %s failed.", session.user)
-        session.notify("That did not work because of an error in Fairyring; the server's log says more.", "error")
+        session.notify(
+            "That did not work because of an error in Fairyring; the server's log says more.", "error"
+        )
 
 
 class Redrawing:

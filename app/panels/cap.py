@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import anyio.to_thread
 from sqlalchemy import Connection
 
 from app.derive import Whole, outlines_of, whole_of
@@ -13,14 +12,22 @@ from app.panels.callbacks import Redraw
 from app.panels.icons import icon
 from app.panels.markup import EMPTY, Content, Markup, element
 from app.panels.status import run_badge
-from app.review import CapFigures, figures_of_cap
+from app.review import compare_cap
 from app.session import Session
 from app.workspace import Workspace
-from storage.documents import load_prediction, load_run
-from storage.journal import Entry, history
+from model.evaluate import Pair
 from model.geometry import Circle, Polygon
+from storage.documents import load_prediction, load_predictions, load_run
+from storage.journal import Entry, history
 from storage.records import Annotation, Mark, Prediction, Run, Shape
 
+COMMANDS = {
+    "accept": "Accept this prediction (A)",
+    "mark": "Take the outline as mark, or clear the mark (M)",
+    "doubtful": "Doubtful: a careful person could disagree (D)",
+    "ignored": "Ignored: counts neither way (I)",
+    "delete": "Delete (Del)",
+}
 Facts = list[tuple[str, Content]]
 
 
@@ -32,7 +39,7 @@ class Background:
     prediction: Prediction | None
     run: Run | None
     whole: Whole
-    figures: CapFigures | None
+    pair: Pair | None
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
@@ -62,22 +69,23 @@ async def _background(workspace: Workspace, session: Session, annotation: Annota
     cap, document = annotation.cap, session.document
     assert document is not None
 
-    def stored(connection: Connection) -> tuple[list[Entry], Prediction | None, Run | None]:
-        prediction = load_prediction(connection, cap.prediction) if cap.prediction is not None else None
-        run = load_run(connection, prediction.run) if prediction else None
-        return history(connection, annotation.uid), prediction, run
-
     annotations = dict(session.annotations)
 
-    def computed() -> tuple[Whole, CapFigures | None]:
+    def gather(connection: Connection) -> Background:
+        prediction = load_prediction(connection, cap.prediction) if cap.prediction is not None else None
+        run = load_run(connection, prediction.run) if prediction else None
+        predictions = load_predictions(connection, document.image.id)
         around = outlines_of(document, annotations)
         around.pop(annotation.uid, None)
-        whole = whole_of(cap.visible, cap.mark, image=document.image, around=around.values())
-        return whole, figures_of_cap(document, annotations, annotation.uid)
+        return Background(
+            entries=history(connection, annotation.uid),
+            prediction=prediction,
+            run=run,
+            whole=whole_of(cap.visible, cap.mark, image=document.image, around=around),
+            pair=compare_cap(document.image, annotations, predictions, annotation.uid),
+        )
 
-    entries, prediction, run = await workspace.read(stored)
-    whole, figures = await anyio.to_thread.run_sync(computed)
-    return Background(entries, prediction, run, whole, figures)
+    return await workspace.read(gather)
 
 
 def annotation_facts(annotation: Annotation, background: Background) -> Markup:
@@ -94,24 +102,26 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         ("Whole", _shape(annotation.whole)),
         ("Fit", background.whole.note),
         ("Mark", _mark(cap.mark)),
-        *_error_facts(background.figures),
+        *_error_facts(background.pair),
         ("Overlap", order),
         ("From", _origin(background)),
         ("Edited", _last_edit(annotation, background.entries)),
     ]
     title = element("strong", f"Cap {annotation.uid[:8]}", title=annotation.uid)
-    return _inspector(title, *flags, facts=facts, commands=("delete",))
+    return _inspector(title, *flags, facts=facts, commands=("mark", "doubtful", "ignored", "delete"))
 
 
-def _error_facts(figures: CapFigures | None) -> Facts:
-    if figures is None:
+def _error_facts(pair: Pair | None) -> Facts:
+    if pair is None:
         return [("Prediction", "none matches this cap")]
-    if figures.cdr is None:
+    if pair.error is None:
         return [("CDR", "mark the cap to measure its prediction")]
-    signed = f"Δx {figures.dx:+.2f}, Δy {figures.dy:+.2f} px"
+    error = pair.error
+    signed = f"Δx {error.dx:+.2f}, Δy {error.dy:+.2f} px"
+    share = "" if error.relative is None else f", {100 * error.relative:.2f} % of the diameter"
     return [
-        ("CDR", element("span", f"{figures.cdr:.3f} %", class_="fr-figure", title=signed)),
-        ("Error", f"{figures.px:.2f} px, {100 * figures.relative:.2f} % of the diameter"),
+        ("CDR", element("span", f"{error.cdr:.3f} %", class_="fr-figure", title=signed)),
+        ("Error", f"{error.px:.2f} px{share}"),
     ]
 
 
@@ -123,7 +133,9 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
         ("Score", f"{prediction.score:.3f}"),
         ("Run", run_badge(run) if run else "unknown"),
     ]
-    return _inspector(element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete"))
+    return _inspector(
+        element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete")
+    )
 
 
 def summary(session: Session) -> Markup:
@@ -141,7 +153,14 @@ def summary(session: Session) -> Markup:
 
 def _inspector(*title: Markup, facts: Facts, commands: tuple[str, ...] = ()) -> Markup:
     buttons = [
-        element("button", icon(name), name.capitalize(), type="button", data_fairyring_command=name)
+        element(
+            "button",
+            icon(name),
+            type="button",
+            title=COMMANDS[name],
+            aria_label=COMMANDS[name],
+            data_fairyring_command=name,
+        )
         for name in commands
     ]
     rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
@@ -177,7 +196,9 @@ def _mark(mark: Mark | None) -> str:
 def _origin(background: Background) -> Content:
     prediction = background.prediction
     if prediction is None:
-        return "imported" if background.entries and background.entries[0].user == "import" else "drawn by hand"
+        return (
+            "imported" if background.entries and background.entries[0].user == "import" else "drawn by hand"
+        )
     badge = run_badge(background.run) if background.run else "a prediction"
     return element("span", badge, f" score {prediction.score:.2f}")
 

@@ -92,9 +92,7 @@ async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage
     count = (await workspace.read(lambda connection: list_images(connection, which, limit=0))).total
     at.page = min(wanted, max(count - 1, 0) // PAGE)
     offset = at.page * PAGE
-    return await workspace.read(
-        lambda connection: list_images(connection, which, offset=offset, limit=PAGE)
-    )
+    return await workspace.read(lambda connection: list_images(connection, which, offset=offset, limit=PAGE))
 
 
 def image_list(page: ImagePage, number: int, current: int | None) -> Markup:

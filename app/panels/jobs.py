@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import asyncio
 
-from app.exports import export_work
+from app.exports import Only, export_work
+from app.jobs import Job
 from app.panels.callbacks import Redraw, person_did
 from app.panels.markup import Markup, element
-from app.jobs import Job
+from app.review import compare_work
 from app.session import Session
 from app.workspace import Workspace
 
 EVERY_S = 0.5
 """How often a running job's progress is drawn."""
-EXPORTS = {
+EXPORTS: dict[str, Only] = {
     "Approved images": "approved",
     "Annotated images": "annotated",
     "Annotations, else predictions": "all",
@@ -30,19 +31,20 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     cancel = gui.add_button("Cancel what is running", visible=False)
     shown = gui.add_html("")
 
-    def start(title: str, work: object) -> None:
-        workspace.jobs.start(title, work, user=session.user, finished=lambda job: finished(workspace, session, job))
-        for tab in workspace.tabs:
-            tab.refresh("jobs")
-
     async def start_export() -> None:
-        start(f"Export: {what.value.lower()}", export_work(workspace, only=EXPORTS[what.value]))
+        title = f"Export: {what.value.lower()}"
+        workspace.start_job(session, title, export_work(workspace.project, only=EXPORTS[what.value]))
+
+    async def start_comparison() -> None:
+        workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))
 
     async def cancel_all() -> None:
         for job in workspace.jobs:
             job.cancel()
 
     export.on_click(person_did(session, start_export))
+    compare.on_click(person_did(session, start_comparison))
+    cancel.on_click(person_did(session, cancel_all))
 
     async def redraw() -> None:
         shown.content = job_list(list(workspace.jobs)).html
@@ -51,13 +53,6 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             asyncio.get_running_loop().call_later(EVERY_S, session.refresh, "jobs")
 
     return redraw
-
-
-def finished(workspace: Workspace, session: Session, job: Job) -> None:
-    """A job has ended: whoever started it is told, and every tab sees it."""
-    session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
-    for tab in workspace.tabs:
-        tab.refresh("jobs", "review")
 
 
 def job_list(jobs: list[Job]) -> Markup:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.panels import cap, images, jobs, status, tools, view
+from app.panels import cap, images, jobs, review, status, tools, view
 from app.panels.callbacks import Redrawing
 from app.session import Session
 from app.workspace import Workspace
@@ -20,8 +20,10 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["images"] = images.build(workspace, session)
         with tabs.add_tab("View"):
             parts["layers"] = view.build(workspace, session)
+        with tabs.add_tab("Review"):
+            parts["review"] = review.build(workspace, session)
         with tabs.add_tab("Jobs"):
             parts["jobs"] = jobs.build(workspace, session)
         session.redraw = Redrawing(parts).ask
         session.has_panel = True
-    session.refresh("status", "cap", "images", "layers", "jobs")
+    session.refresh("status", "cap", "images", "layers", "review", "jobs")

@@ -1,8 +1,11 @@
-"""The top of the panel: which image, which run, who, and whether everything is saved."""
+"""The top of the panel: which image, which run, and who. Whether all is saved, the editor itself says."""
 
 from __future__ import annotations
 
+from typing import Literal
+
 from app.panels.callbacks import Redraw
+from app.panels.icons import icon
 from app.panels.markup import Markup, element
 from app.session import Session
 from app.workspace import Workspace
@@ -36,30 +39,49 @@ def _image_line(session: Session) -> list[Markup]:
     if image is None:
         return [element("strong", "No image open")]
     return [
+        step_button("previous", "Previous image (P)"),
         element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
         element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
         element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
+        step_button("next", "Next image (N)"),
     ]
 
 
 def _person_line(session: Session) -> list[Markup]:
     run = session.document.run if session.document else None
+    waiting = f"{session.waiting} on their way" if session.waiting else None
     return [
         run_badge(run) if run else element("span", "no predictions"),
-        element("a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"),
-        _saved(session.waiting),
+        element(
+            "span",
+            waiting,
+            class_="fr-badge fr-warn" if waiting else None,
+            title="Edits not acknowledged yet",
+        ),
+        element(
+            "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
+        ),
     ]
+
+
+def step_button(direction: Literal["previous", "next"], title: str) -> Markup:
+    """Goes to the image before or after this one."""
+    return element(
+        "button",
+        icon(direction),
+        type="button",
+        class_="fr-step",
+        title=title,
+        aria_label=title,
+        data_fairyring_command=f"{direction}_image",
+    )
 
 
 def run_badge(run: Run) -> Markup:
     """A run's name; one that only imitates a network is called that plainly."""
     if run.kind == "simulated":
-        warning = "These predictions are true masks distorted by a noise model; no network has seen the photo."
+        warning = (
+            "These predictions are true masks distorted by a noise model; no network has seen the photo."
+        )
         return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
     return element("span", run.name, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")
-
-
-def _saved(waiting: int) -> Markup:
-    if waiting:
-        return element("span", f"saving {waiting}…", class_="fr-saving", data_fairyring_saved="no")
-    return element("span", "saved", class_="fr-saved", data_fairyring_saved="yes")

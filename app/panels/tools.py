@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
-from app.opening import set_status, step
+from app.opening import set_status
 from app.panels.callbacks import person_did
 from app.panels.icons import icon
 from app.panels.markup import Markup, element
@@ -14,51 +12,41 @@ from storage.records import Status
 
 TOOLS = (
     ("select", "Select", "V"),
-    ("polygon", "Outline", "P"),
+    ("polygon", "Outline", "W"),
     ("circle", "Circle", "C"),
-    ("pan", "Pan", "Space"),
+    ("pan", "Pan", "G"),
 )
 COMMANDS = (
     ("undo", "Undo", "Ctrl+Z"),
     ("redo", "Redo", "Ctrl+Shift+Z"),
-    ("fit", "Whole image", "F"),
-    ("accept_all", "Accept all predictions", "Shift+A"),
-    ("help", "Keys", "?"),
+    ("fit", "Fit the photo", "F"),
+    ("accept_all", "Accept all open predictions", "Shift+A"),
+    ("done", "Annotated, and on to the next", "Ctrl+Enter"),
+    ("help", "All keys", "?"),
 )
+STATUSES: dict[str, Status] = {"To do": "new", "Annotated": "annotated", "Approved": "approved"}
 
 
 def build(workspace: Workspace, session: Session) -> None:
-    """The toolbar, and the buttons that go from image to image."""
+    """The toolbar, and the buttons for the status of the image."""
     gui = session.client.gui
     gui.add_html(toolbar().html)
-    buttons = gui.add_button_group("Image", ("‹ Back", "Next ›", "Done", "Approve"))
+    status = gui.add_button_group("Set status", tuple(STATUSES))
 
     async def press() -> None:
-        match buttons.value:
-            case "‹ Back":
-                await _go(-1)
-            case "Next ›":
-                await _go(1)
-            case "Done":
-                await _finish("annotated")
-            case "Approve":
-                await _finish("approved")
-
-    async def _go(by: Literal[-1, 1]) -> None:
-        await step(workspace, session, by)
-
-    async def _finish(status: Status) -> None:
         if session.image is not None:
-            await set_status(workspace, session, session.image.id, status)
+            await set_status(workspace, session, session.image.id, STATUSES[status.value])
 
-    buttons.on_click(person_did(session, press))
+    status.on_click(person_did(session, press))
 
 
 def toolbar() -> Markup:
     """Buttons that the editor listens to: tools above, commands below."""
     return element(
         "div",
-        element("div", *(_tool(*tool) for tool in TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"),
+        element(
+            "div", *(_tool(*tool) for tool in TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"
+        ),
         element("div", *(_command(*command) for command in COMMANDS), class_="fr-commands"),
         class_="fr-toolbar",
     )
