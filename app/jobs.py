@@ -19,7 +19,7 @@ log = logging.getLogger(__name__)
 
 State = Literal["running", "done", "failed", "cancelled"]
 Progress = Callable[[int, int, str], None]
-"""Called with (done, total, what is being done); raises CancelledError once somebody wants the job to stop."""
+"""Called with (done, total, what is being done); raises CancelledError once the job is to stop."""
 
 KEPT = 12
 """Finished jobs that stay listed."""

@@ -20,7 +20,7 @@ def box_of(outline: Outline) -> Box | None:
 
 
 def keys_near(outline: Outline, others: Mapping[Key, Outline], *, reach: float = 0.0) -> list[Key]:
-    """Those whose box touches that of ``outline`` widened on every side by ``reach`` times its longer side."""
+    """Whose box touches that of ``outline`` widened on all sides by ``reach`` times its longer side."""
     box = box_of(outline)
     if box is None:
         return []

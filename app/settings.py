@@ -40,7 +40,7 @@ def load_settings(
     environment: Mapping[str, str] = os.environ,
     **options: Any,
 ) -> Settings:
-    """Settings of a project; ``file`` stands in for its fairyring.toml, an option of None counts as not given.
+    """Settings of a project; ``file`` stands in for its fairyring.toml, None is no option.
 
     Raises SettingsError for an unknown name or a value of the wrong kind, with the place it came from.
     """
