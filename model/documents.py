@@ -25,7 +25,8 @@ from model.geometry import (
     diameter_of_shape,
     part_of_points,
 )
-from model.raster import Rle, check_outline, check_rle, mask_of_rle, rle_of_outline
+from model.raster import Rle, check_outline, check_rle, rle_of_outline
+from model.rle import checked_runs, cut_of_runs
 from model.tracing import rim_of_mask
 
 ELLIPSE_FIGURES = 5
@@ -217,7 +218,9 @@ def _fitted(segmentation: Any, image: _Image) -> Shape | None:
     if isinstance(segmentation, list):
         outline = check_outline(segmentation, width=image.width, height=image.height)
         return whole_of_mark(Polygon([figure for part in outline for figure in part]))
-    return whole_of_mark(Polygon(part_of_points(rim_of_mask(mask_of_rle(_rle(segmentation, image))))))
+    height, _, runs = checked_runs(segmentation)
+    cut, corner = cut_of_runs(height, runs)
+    return whole_of_mark(Polygon(part_of_points(rim_of_mask(cut) + corner)))
 
 
 def _diameter_of_box(entry: dict[str, Any]) -> float | None:

@@ -30,7 +30,7 @@ from model.geometry import (
     signed_area,
     without_repeats,
 )
-from model.rle import checked_runs
+from model.rle import checked_runs, cut_of_runs
 from model.tracing import Component, Loop, components_of_mask, fit_polygon, join_holes, knots_of_loop
 
 Mask = NDArray[np.uint8]
@@ -123,12 +123,9 @@ def check_rle(rle: Any) -> Rle:
 
 def outline_of_rle(rle: Any) -> Outline:
     """The outline of an RLE as a file holds it; GeometryError where it is not one or covers no pixel."""
-    code = check_rle(rle)
-    x, y, width, height = (int(side) for side in coco.toBbox(code))
-    if not width:
-        raise GeometryError("The RLE covers no pixel.")
-    cut = np.ascontiguousarray(coco.decode(code)[y : y + height, x : x + width])
-    return _outline(cut, corner=(x, y), image=(code["size"][1], code["size"][0]))
+    height, width, runs = checked_runs(rle)
+    cut, corner = cut_of_runs(height, runs)
+    return _outline(cut, corner=corner, image=(width, height))
 
 
 def outline_of_mask(mask: Mask) -> Outline:

@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from model.geometry import GeometryError
 
 MAX_PIXELS = 1 << 30
@@ -32,6 +35,26 @@ def checked_runs(rle: Any) -> tuple[int, int, list[int]]:
     if sum(runs) != height * width:
         raise GeometryError(f"The counts of the RLE do not add up to its {width} × {height} pixels.")
     return height, width, runs
+
+
+def cut_of_runs(height: int, runs: list[int]) -> tuple[NDArray[np.uint8], tuple[int, int]]:
+    """The smallest box around all covered pixels, as a mask, and the x, y of its first pixel in the image.
+
+    Decoding just that takes a small part of the time that the whole image does. GeometryError where no pixel
+    is covered.
+    """
+    ends = np.cumsum(runs)
+    lit = np.flatnonzero(runs[1::2]) * 2 + 1
+    if not len(lit):
+        raise GeometryError("The RLE covers no pixel.")
+    first, last = int(ends[lit[0] - 1]) // height, (int(ends[lit[-1]]) - 1) // height
+    low, high = first * height, (last + 1) * height
+    lengths = np.diff(ends.clip(low, high), prepend=low)
+    covered = np.arange(len(runs)) % 2 == 1
+    columns = np.repeat(covered, lengths).reshape(-1, height)
+    rows = np.flatnonzero(columns.any(axis=0))
+    cut = columns[:, rows[0] : rows[-1] + 1].T
+    return np.ascontiguousarray(cut, np.uint8), (first, int(rows[0]))
 
 
 def _runs_of_text(text: str | bytes) -> list[int]:

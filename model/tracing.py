@@ -80,9 +80,7 @@ def components_of_mask(mask: NDArray[np.uint8]) -> list[Component]:
 
 def rim_of_mask(mask: NDArray[np.uint8]) -> Points:
     """(n, 2): the points half way between inner and outer pixels, without those of holes."""
-    x, y, width, height = cv2.boundingRect(mask)
-    pieces = components_of_mask(mask[y : y + height, x : x + width])
-    rims = [piece.loops[0].midpoints + piece.corner + (x, y) for piece in pieces]
+    rims = [piece.loops[0].midpoints + piece.corner for piece in components_of_mask(mask)]
     return np.concatenate(rims) if rims else np.zeros((0, 2))
 
 
