@@ -14,8 +14,8 @@ from app.gateway.messages import Fit, Refit
 from app.nearby import keys_near
 from model.contour.marks import whole_of_mark
 from model.contour.reconstruct import Reconstruction, reconstruct
-from model.errors import FairyringError
-from model.geometry import Circle, Polygon
+from model.geometry import Circle, GeometryError, Polygon
+from model.raster import check_mark, check_outline
 from storage import derived
 from storage.documents import load_annotations, load_document, load_predictions
 from storage.errors import StoreError
@@ -44,11 +44,19 @@ class Whole:
 
 
 def whole_of(visible: Outline, mark: Mark | None, *, image: Image, around: Mapping[str, Outline]) -> Whole:
-    """The whole outline of one cap; ``around`` holds the visible outlines of the image's other caps."""
-    if mark is not None:
-        return _from_mark(mark)
-    neighbours = [around[key] for key in keys_near(visible, around, reach=REACH)]
-    return _wholes([visible, *neighbours], [0], image=image)[0]
+    """The whole outline of one cap, which is checked first: the rasteriser must never see anything wild.
+
+    ``around`` holds the visible outlines of the image's other caps, checked before.
+    """
+    size = {"width": image.width, "height": image.height}
+    try:
+        if mark is not None:
+            return _from_mark(check_mark(mark, **size))
+        outline = check_outline(visible, **size)
+    except GeometryError as error:
+        return Whole(None, str(error))
+    neighbours = [around[key] for key in keys_near(outline, around, reach=REACH)]
+    return _wholes([outline, *neighbours], [0], image=image)[0]
 
 
 def outlines_of(document: Document, annotations: Mapping[str, Annotation]) -> dict[str, Outline]:
@@ -85,7 +93,7 @@ def derive_edits(project: Project, edits: Sequence[Edit]) -> list[Derived]:
                 caps[image_id] = outlines_of(document, {a.uid: a for a in document.annotations})
     for edit in edits:
         if edit.image in caps:
-            _enter(caps[edit.image], edit)
+            _enter(caps[edit.image], edit, image=images[edit.image])
     return [_derive(edit, images.get(edit.image), caps.get(edit.image, {})) for edit in edits]
 
 
@@ -147,10 +155,7 @@ def _from_reconstruction(found: Reconstruction) -> Whole:
 
 
 def _from_mark(mark: Mark) -> Whole:
-    try:
-        shape = whole_of_mark(mark)
-    except (FairyringError, ValueError):
-        shape = None
+    shape = whole_of_mark(mark)
     if shape is None:
         return Whole(None, "The mark determines no outline; place more points around the cap.")
     if isinstance(mark, Polygon):
@@ -172,11 +177,12 @@ def _derive(edit: Edit, image: Image | None, caps: Mapping[str, Outline]) -> Der
     return Derived(edit=edit, whole=fit.whole, centre=fit.centre, refusal=fit.refusal)
 
 
-def _enter(caps: dict[str, Outline], edit: Edit) -> None:
+def _enter(caps: dict[str, Outline], edit: Edit, *, image: Image) -> None:
     caps.pop(edit.annotation, None)
     if edit.cap is not None:
         caps.pop(_key(edit.cap.prediction), None)
-        caps[edit.annotation] = edit.cap.visible
+        with suppress(GeometryError):
+            caps[edit.annotation] = check_outline(edit.cap.visible, width=image.width, height=image.height)
 
 
 def _key(prediction: int | None) -> str:

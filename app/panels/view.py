@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from app.gateway.messages import Layers
+from typing import Any
+
+import msgspec
+import viser
+
 from app.panels.callbacks import Redraw, person_did
 from app.session import LAYERS, Session
 from app.workspace import Workspace
@@ -29,33 +33,40 @@ def build(_workspace: Workspace, session: Session) -> Redraw:
     contrast = gui.add_slider("Contrast", 0.2, 3.0, 0.05, 1.0)
     reset = gui.add_button("Reset brightness and contrast")
 
-    async def changed() -> None:
-        visible = {name: box.value for name, box in boxes.items()}
-        session.layers = Layers(visible=visible, brightness=brightness.value, contrast=contrast.value)
-        session.send(session.layers)
+    def follow(name: str, box: viser.GuiCheckboxHandle) -> None:
+        async def changed() -> None:
+            _show(session, visible=session.layers.visible | {name: box.value})
+
+        box.on_update(person_did(session, changed))
+
+    async def slid() -> None:
+        _show(session, brightness=brightness.value, contrast=contrast.value)
 
     async def put_back() -> None:
         brightness.value = contrast.value = 1.0
-        await changed()
+        await slid()
 
     async def redraw() -> None:
         for name, box in boxes.items():
             box.value = session.layers.visible[name]
 
-    for control in (*boxes.values(), brightness, contrast):
-        control.on_update(person_did(session, changed))
+    for name, box in boxes.items():
+        follow(name, box)
+    for slider in (brightness, contrast):
+        slider.on_update(person_did(session, slid))
     reset.on_click(person_did(session, put_back))
     return redraw
 
 
 def toggle(session: Session, layer: str) -> None:
     """Shows or hides a layer, as a key in the editor asks."""
-    if layer in LAYERS:
-        shown = session.layers.visible
-        session.layers = Layers(
-            visible=shown | {layer: not shown[layer]},
-            brightness=session.layers.brightness,
-            contrast=session.layers.contrast,
-        )
-        session.send(session.layers)
+    shown = session.layers.visible
+    if layer in shown:
+        _show(session, visible=shown | {layer: not shown[layer]})
         session.refresh("layers")
+
+
+def _show(session: Session, **changes: Any) -> None:
+    """Sends the editor the layers with these changes."""
+    session.layers = msgspec.structs.replace(session.layers, **changes)
+    session.send(session.layers)

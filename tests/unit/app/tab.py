@@ -145,9 +145,7 @@ class Tab:
         return self.expect(Outcomes)
 
 
-def new_cap(
-    image: int, *, uid: str = "cap-1", edit: str = "edit-1", base: int = 0, **cap: Any
-) -> Edit:
+def new_cap(image: int, *, uid: str = "cap-1", edit: str = "edit-1", base: int = 0, **cap: Any) -> Edit:
     """An edit that makes, or remakes, a square cap."""
     return Edit(id=edit, annotation=uid, image=image, base=base, cap=Cap(**{"visible": SQUARE, **cap}))
 

@@ -30,7 +30,9 @@ def test_the_page_is_visers_with_the_editor_added(shared_port: int) -> None:
     assert '<script type="module" src="/static/editor/main.js"></script>' in page.text
     assert "<title>Fairyring</title>" in page.text
     assert "<title>Viser</title>" not in page.text
-    assert page.text.index("data-cs=") < page.text.index("/static/editor/main.js") < page.text.index("</head>")
+    assert (
+        page.text.index("data-cs=") < page.text.index("/static/editor/main.js") < page.text.index("</head>")
+    )
 
 
 def test_the_policy_names_visers_own_scripts_and_no_others() -> None:
@@ -74,7 +76,9 @@ def test_a_name_is_escaped_on_its_page(shared_port: int) -> None:
     assert 'value="&quot;&gt;&lt;script&gt;"' in page
 
 
-@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1:8080", "", "a@localhost"])
+@pytest.mark.parametrize(
+    "host", ["evil.example", "127.0.0.1.evil.example", "10.0.0.1:8080", "", "a@localhost"]
+)
 def test_a_foreign_host_is_refused_even_for_reading(shared_port: int, host: str) -> None:
     assert get(shared_port, "/", Host=host).status_code == 403
 
@@ -85,7 +89,8 @@ def test_loopback_names_are_accepted_with_any_forwarded_port(host: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "origin", [None, "null", "http://evil.example", "http://localhost:8081", "http://localhost", "ws://localhost:8080"]
+    "origin",
+    [None, "null", "http://evil.example", "http://localhost:8081", "http://localhost", "ws://localhost:8080"],
 )
 def test_only_the_very_same_origin_counts(origin: str | None) -> None:
     assert is_same_origin("http://localhost:8080", "localhost:8080")
@@ -116,7 +121,9 @@ def test_nobody_without_a_name_reaches_the_panel_or_the_photos(shared_port: int)
     assert httpx.get(f"http://127.0.0.1:{shared_port}/photos/1/0").status_code == 401
 
 
-def test_the_relay_speaks_visers_protocol_and_its_panel_is_empty_until_the_editor_comes(shared_port: int) -> None:
+def test_the_relay_speaks_visers_protocol_and_its_panel_is_empty_until_the_editor_comes(
+    shared_port: int,
+) -> None:
     panel = Panel(shared_port, name="Ada")
     assert panel.socket.subprotocol == SUBPROTOCOL
     assert panel.token
@@ -139,7 +146,9 @@ def test_static_files_are_revalidated_and_nothing_outside_is_served(shared_port:
     script = get(shared_port, "/static/panel.css")
     assert script.status_code == 200
     assert script.headers["cache-control"] == "no-cache"
-    assert get(shared_port, "/static/panel.css", **{"If-None-Match": script.headers["etag"]}).status_code == 304
+    assert (
+        get(shared_port, "/static/panel.css", **{"If-None-Match": script.headers["etag"]}).status_code == 304
+    )
     for path in ("/static/../pyproject.toml", "/static/%2e%2e/pyproject.toml", "/static/..%2fpyproject.toml"):
         with socket.create_connection(("127.0.0.1", shared_port)) as raw:
             raw.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
