@@ -62,7 +62,7 @@ def _runs_of_text(text: str | bytes) -> list[int]:
 
     From the fourth on they are differences to the count before last. Raises GeometryError.
     """
-    codes = text.encode("ascii", "replace") if isinstance(text, str) else text
+    codes = map(ord, text) if isinstance(text, str) else text
     runs: list[int] = []
     value = shift = 0
     for code in codes:
