@@ -1,0 +1,125 @@
+import math
+
+import pytest
+
+from model.errors import FairyringError
+from model.geometry import Circle
+from storage.documents import load_document, load_prediction, load_predictions, load_run, load_version
+from storage.errors import StoreError
+from storage.journal import Derived, commit
+from storage.predictions import NewPrediction, add_predictions, add_run, latest_run, list_runs
+from storage.records import Cap, Edit
+
+
+def predict(project, square, *, name="r", image=1, scores=(0.9, 0.5), **keys):
+    def work(connection):
+        run = add_run(connection, name=name, kind="simulated", **keys)
+        new = [NewPrediction(visible=square, score=score, uid=str(score)) for score in scores]
+        return run.id, add_predictions(connection, run_id=run.id, image_id=image, predictions=new)
+
+    return project.write(work)
+
+
+def test_a_run_keeps_what_made_it(project):
+    run = project.write(
+        lambda c: add_run(c, name="night", kind="network", weights="abc", settings={"grid": [40, 36]})
+    )
+    with project.read() as connection:
+        assert load_run(connection, run.id) == latest_run(connection) == run
+        assert list_runs(connection) == [run]
+    assert (run.name, run.kind, run.weights, run.settings) == ("night", "network", "abc", {"grid": [40, 36]})
+
+
+def test_there_may_be_no_run(project):
+    with project.read() as connection:
+        assert latest_run(connection) is None
+        assert load_run(connection, 1) is None
+        assert load_prediction(connection, 1) is None
+
+
+def test_predictions_are_kept_as_they_were_made(beds, square):
+    whole = Circle(20.5, 20.5, 12.0)
+    new = NewPrediction(visible=square, score=0.75, whole=whole, centre=(20.5, 20.5), extra={"a": [1]})
+
+    def work(connection):
+        run = add_run(connection, name="r", kind="network")
+        return add_predictions(connection, run_id=run.id, image_id=1, predictions=[new])
+
+    assert beds.write(work) == 1
+    with beds.read() as connection:
+        (stored,) = load_predictions(connection, 1)
+        assert load_prediction(connection, stored.id) == stored
+    assert (stored.visible, stored.score, stored.whole) == (square, 0.75, whole)
+    assert (stored.centre, stored.extra, stored.category) == ((20.5, 20.5), {"a": [1]}, "mushroom")
+
+
+def test_the_document_shows_the_latest_run_that_saw_the_image(beds, square):
+    predict(beds, square, name="first")
+    predict(beds, square, name="second", scores=(0.25,))
+    predict(beds, square, name="third", image=2)
+    with beds.read() as connection:
+        document = load_document(connection, 1)
+    assert document.run.name == "second"
+    assert [p.score for p in document.predictions] == [0.25]
+
+
+def test_a_run_that_saw_nothing_in_an_image_is_still_the_latest(beds, square):
+    predict(beds, square, name="first")
+    predict(beds, square, name="second", scores=())
+    with beds.read() as connection:
+        document = load_document(connection, 1)
+    assert (document.run.name, document.predictions) == ("second", [])
+
+
+def test_an_older_run_that_adds_later_does_not_become_the_latest(beds, square):
+    first, _ = predict(beds, square, name="first", scores=())
+    predict(beds, square, name="second", scores=())
+    new = [NewPrediction(visible=square, score=0.5)]
+    beds.write(lambda c: add_predictions(c, run_id=first, image_id=1, predictions=new))
+    with beds.read() as connection:
+        assert load_document(connection, 1).run.name == "second"
+
+
+def test_the_same_predictions_again_add_nothing(beds, square):
+    assert predict(beds, square, key="k") == (1, 2)
+    assert predict(beds, square, key="k") == (1, 0)
+
+
+@pytest.mark.parametrize("score", [math.nan, math.inf, -0.1, 1.1, True, None])
+def test_a_score_lies_between_0_and_1(beds, square, score):
+    with pytest.raises(StoreError, match="score lies between 0 and 1"):
+        predict(beds, square, scores=(score,))
+
+
+@pytest.mark.parametrize("visible", [[], [[0.0, 0.0, 1.0, 1.0]], [[0.0, 0.0, math.nan, 1.0, 2.0, 2.0]]])
+def test_an_outline_that_cannot_be_used_stores_nothing(beds, visible):
+    with pytest.raises(FairyringError):
+        predict(beds, visible, scores=(0.5,))
+    with beds.read() as connection:
+        assert latest_run(connection) is None
+
+
+def test_a_rejected_prediction_is_no_longer_shown_and_an_accepted_one_is(beds, square):
+    predict(beds, square)
+
+    def edit(number, annotation, base, cap):
+        return Derived(edit=Edit(id=number, annotation=annotation, image=1, base=base, cap=cap))
+
+    accepted, rejected = Cap(visible=square, prediction=1), Cap(visible=square, prediction=2)
+    commit(
+        beds, [edit("1", "a", 0, accepted), edit("2", "b", 0, rejected), edit("3", "b", 1, None)], user="ann"
+    )
+    with beds.read() as connection:
+        assert [p.id for p in load_document(connection, 1).predictions] == [1]
+        assert [p.id for p in load_predictions(connection, 1)] == [1, 2]
+    commit(beds, [edit("4", "b", 2, rejected)], user="ann")
+    with beds.read() as connection:
+        assert [p.id for p in load_document(connection, 1).predictions] == [1, 2]
+
+
+def test_new_predictions_make_figures_of_the_image_stale(beds, square):
+    with beds.read() as connection:
+        before = load_version(connection, 1)
+    predict(beds, square)
+    with beds.read() as connection:
+        assert load_version(connection, 1) > before
