@@ -53,6 +53,9 @@ TOLERANCE = 0.5
 """px; how far a smooth outline's vertices may first lie from the midpoints between its edges."""
 ROUNDS = 4
 """Attempts at a smooth outline before the pixels' edges are taken."""
+GRID = 25
+"""Vertices a pixel of a smooth outline: no multiple of 1/25 lies where the rasteriser, which works in fifths,
+rounds one way or the other by the last bit."""
 SMALL = 8
 """Pixels up to which a component is drawn by its pixels' edges: a fit to so little is worth nothing."""
 
@@ -131,7 +134,7 @@ def outline_of_rle(rle: Any) -> Outline:
 def outline_of_mask(mask: Mask) -> Outline:
     """An outline that rasterises back to exactly this mask; one part a component (8-connected).
 
-    Vertices are few, rounded to 0.01 px, fitted by least squares to the points half way between inner and
+    Vertices are few, on a grid of 0.04 px, fitted by least squares to the points half way between inner and
     outer pixels, so that the area is that of the mask and no rim is drawn in or out. Where such a smooth
     polygon would change a pixel it gets more vertices there, and as a last resort the component follows
     its pixels' edges. Holes are joined to their part by bridges.
@@ -264,10 +267,10 @@ def _part_of_component(
         fits = [
             fit_polygon(*pair).clip(-offset, image - offset) for pair in zip(midpoints, knots, strict=True)
         ]
-        points = np.round(join_holes(fits[0], fits[1:]) + offset, 2)
-        wrong = _mask_of_points(points - offset, piece.mask) != piece.mask
+        points = np.round(join_holes(fits[0], fits[1:]) * GRID) / GRID
+        wrong = _mask_of_points(points, piece.mask) != piece.mask
         if not wrong.any():
-            return part_of_points(without_repeats(points))
+            return part_of_points(without_repeats(np.round(points + offset, 2)))
         knots = [_more_knots(*pair, wrong) for pair in zip(piece.loops, knots, strict=True)]
     corners = [loop.corners for loop in piece.loops]
     return part_of_points(without_repeats(join_holes(corners[0], corners[1:]) + offset))

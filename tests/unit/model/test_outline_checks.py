@@ -74,9 +74,9 @@ def test_a_good_outline_comes_back_as_it_is_in_floats() -> None:
 def test_repeated_vertices_go() -> None:
     closed = [10, 10, 10, 10, 50, 10, 50, 50, 10, 50, 10, 10]
 
-    assert check_outline([closed], width=100, height=80) == [
-        [10, 10, 50, 10, 50, 50, 10, 50]
-    ] or check_outline([closed], width=100, height=80) == [[50, 10, 50, 50, 10, 50, 10, 10]]
+    (part,) = check_outline([closed], width=100, height=80)
+
+    assert sorted(zip(part[::2], part[1::2], strict=True)) == [(10, 10), (10, 50), (50, 10), (50, 50)]
 
 
 def test_a_hole_behind_a_bridge_is_left_alone() -> None:
