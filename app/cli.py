@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import logging
 import sys
-from importlib.metadata import version
 from typing import Annotated
 
 import typer
 
 from app.commands import benchmarks, demo, project, serve
+from app.commands.version import print_version
 from model.errors import FairyringError
 
 app = typer.Typer(
@@ -17,7 +17,7 @@ app = typer.Typer(
     help="Correct mushroom labels in the browser, and know where every cap's centre is.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode="markdown",
+    rich_markup_mode=None,  # importing rich takes longer than everything else --help needs
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command("init")(project.init)
@@ -29,18 +29,12 @@ app.command("demo")(demo.demo)
 app.add_typer(benchmarks.commands, name="bench")
 
 
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(version("fairyring"))
-        raise typer.Exit
-
-
 @app.callback()
 def _root(
     *,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log what happens, on stderr.")] = False,
     _version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+        bool, typer.Option("--version", callback=print_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
     logging.basicConfig(

@@ -7,7 +7,11 @@ from typing import Annotated, Any
 
 import typer
 
-commands = typer.Typer(no_args_is_help=True, help="Measure, as ratios to a plain reference in the same run.")
+commands = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Measure, as ratios to a plain reference in the same run.",
+)
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
 Quick = Annotated[bool, typer.Option(help="A small run, to see that it works.")]
