@@ -223,3 +223,8 @@ export function circleOfWhole(whole) {
   const { a, b } = axesOf(whole);
   return { kind: "circle", cx: whole.cx, cy: whole.cy, r: Math.sqrt(a * b) };
 }
+
+/** Hundredths of a pixel: what is kept of where a hand has pointed. @type {(value: number) => number} */
+export function hundredths(value) {
+  return Math.round(value * 100) / 100;
+}

@@ -79,8 +79,14 @@ function travel({ desk, sync, say }, way) {
   desk.settle();
   const changes = way === "undo" ? sync.undo() : sync.redo();
   if (!changes) return say(way === "undo" ? "There is nothing to undo on this image." : "There is nothing to redo.");
-  const uids = changes.filter(({ after }) => !after.deleted).map(({ after }) => after.uid);
-  desk.select(uids.length <= 20 ? uids : [], { reveal: true });
+  const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
+  const known = uids.filter((uid) => desk.item(uid));
+  desk.select(known.length <= 20 ? known : [], { reveal: true });
+}
+
+/** The prediction that is open again when its annotation is gone. @type {(before: Shape | null) => string[]} */
+function openAgain(before) {
+  return before && before.cap.prediction !== null ? [`prediction:${before.cap.prediction}`] : [];
 }
 
 /** @type {Run} */

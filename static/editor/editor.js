@@ -33,9 +33,15 @@ import { Transport } from "./transport.js";
 /** @typedef {import("./messages.js").ToServer} ToServer */
 /** @typedef {import("./tools/tool.js").Tool} Tool */
 
+/** Close codes of the server. */
+const NO_NAME = 4401;
+const TOO_BIG = 1009;
+
 export class Editor {
   #project = "";
   #waiting = 0;
+  /** @type {Promise<void> | null} */
+  #ready = null;
   /** When the person asked for another image. @type {number | null} */
   #switchAsked = null;
   #host;
@@ -65,8 +71,9 @@ export class Editor {
     this.#desk = new Desk((changes) => this.#sync.commit(changes));
     this.#transport = new Transport(url, {
       hello: (token) => ({ type: "hello", token, image: this.#desk.image?.id ?? null }),
-      message: (message) => void this.#receive(message),
+      message: (message) => this.#receiveInOrder(message),
       state: () => this.#connectionChanged(),
+      closed: (code, reason) => this.#closed(code, reason),
     });
     this.#sync = new Sync({
       store: this.#desk.store,
@@ -195,8 +202,11 @@ export class Editor {
 
   /** @type {(clash: import("./sync.js").Clash) => void} */
   #showClash(clash) {
-    this.#open(clash.image, clash.uid);
-    if (clash.image === this.#desk.image?.id && this.#desk.item(clash.uid)) this.#desk.select([clash.uid], { reveal: true });
+    if (clash.image !== this.#desk.image?.id) this.#open(clash.image, clash.uid);
+    else if (this.#desk.item(clash.uid)) {
+      this.#desk.select([clash.uid]);
+      this.#desk.reveal({ close: true });
+    }
   }
 
   #tellSelection() {
@@ -207,6 +217,12 @@ export class Editor {
       annotation: sole && !predicted ? sole.uid : null,
       prediction: predicted ? (sole?.cap.prediction ?? null) : null,
     });
+  }
+
+  /** @type {(code: number, reason: string) => void} */
+  #closed(code, reason) {
+    if (code === NO_NAME) this.#say(`${reason} Load the page anew.`, "error");
+    if (code === TOO_BIG) this.#sync.giveUp(reason);
   }
 
   #connectionChanged() {
@@ -221,11 +237,15 @@ export class Editor {
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting })) this.#waiting = waiting;
   }
 
-  /** @type {(message: FromServer) => Promise<void>} */
-  async #receive(message) {
+  /** Opening the outbox takes a moment, and no document may overtake it. @type {(message: FromServer) => void} */
+  #receiveInOrder(message) {
+    if (message.type === "welcome") this.#ready = this.#welcome(message.project);
+    else if (this.#ready) void this.#ready.then(() => this.#receive(message));
+  }
+
+  /** @type {(message: FromServer) => void} */
+  #receive(message) {
     switch (message.type) {
-      case "welcome":
-        return this.#welcome(message.project);
       case "show":
         return this.#show(message);
       case "outcomes":

@@ -4,7 +4,7 @@
  * @module
  */
 
-import { placedWhole } from "./caps.js";
+import { hundredths, placedWhole } from "./caps.js";
 import { draggedVertices, nearestVertices } from "./vertices.js";
 
 /** @typedef {import("./messages.js").Cap} Cap */
@@ -74,7 +74,7 @@ export function movedHandle(cap, handle, { dx, dy, from, pull }) {
   if (mark.kind !== "circle") return cap;
   const before = Math.hypot(from[0] - mark.cx, from[1] - mark.cy);
   const after = Math.hypot(from[0] + dx - mark.cx, from[1] + dy - mark.cy);
-  return { ...cap, mark: { ...mark, r: Math.max(SMALLEST_RADIUS, mark.r + after - before) } };
+  return { ...cap, mark: { ...mark, r: Math.max(SMALLEST_RADIUS, hundredths(mark.r + after - before)) } };
 }
 
 /** @type {(a: Handle | null, b: Handle | null) => boolean} */

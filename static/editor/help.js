@@ -29,7 +29,7 @@ function rowsOf(bindings) {
   for (const binding of bindings) {
     keys.push(...binding.keys);
     if (!binding.text) continue;
-    rows.push([keys.map(readable).join(" "), binding.text]);
+    rows.push([keys.map(readable).join(" ").replaceAll(" Shift+", " "), binding.text]);
     keys = [];
   }
   return rows;

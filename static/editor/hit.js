@@ -4,7 +4,7 @@
  * @module
  */
 
-import { insideCap, measure, placedWhole, ringsOf, axesOf } from "./caps.js";
+import { axesOf, insideCap, measure, placedWhole, ringsOf } from "./caps.js";
 import { overlap } from "./view.js";
 import { nearestEdges } from "./vertices.js";
 

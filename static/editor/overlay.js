@@ -15,6 +15,8 @@ import { spacedVertices } from "./vertices.js";
 import { toScreen } from "./view.js";
 
 /** @typedef {import("./desk.js").Desk} Desk */
+/** @typedef {import("./handles.js").Handle} Handle */
+/** @typedef {import("./messages.js").Cap} Cap */
 /** @typedef {import("./messages.js").Point} Point */
 /** @typedef {import("./store.js").Shape} Shape */
 /** @typedef {import("./view.js").Bounds} Bounds */
@@ -22,7 +24,8 @@ import { toScreen } from "./view.js";
 /** @typedef {CanvasRenderingContext2D} Context */
 /** @typedef {(context: Context, view: View) => Bounds | null} Sketch  draws, and returns what it touched on screen */
 
-const HANDLE_GAP_PX = 9;
+/** Handles no closer than this, or they would hide the rim they are on. */
+const HANDLE_GAP_PX = 13;
 const REACH_PX = 28;
 
 export class Overlay {
@@ -131,7 +134,7 @@ function drawLifted(context, view, shape, desk) {
     context.fill();
   }
   if (isPrediction(shape) && !desk.drafts.has(shape.uid)) context.setLineDash([5, 4]);
-  strokeCased(context, { colour: COLOURS.outline, width: 2, casing: CASING });
+  strokeCased(context, { colour: COLOURS.outline, width: 1.5, casing: CASING });
   context.setLineDash([]);
   drawMark(context, view, shape);
   drawFit(context, view, shape);
@@ -144,7 +147,7 @@ function drawMark(context, view, { cap }) {
   context.beginPath();
   if (cap.mark.kind === "polygon") traceRing(context, view, cap.mark.points);
   else traceWhole(context, view, cap.mark);
-  strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
+  strokeCased(context, { colour: COLOURS.mark, width: 1.5, casing: CASING });
 }
 
 /** @type {(context: Context, view: View, shape: Shape) => void} */
@@ -169,13 +172,18 @@ function drawHandles(context, view, { cap }, desk) {
   context.beginPath();
   for (const ring of ringsOf(cap)) {
     for (const index of spacedVertices(ring, gap)) {
-      squareAt(context, toScreen(view, ring[2 * index], ring[2 * index + 1]), 2.5);
+      squareAt(context, toScreen(view, ring[2 * index], ring[2 * index + 1]), 2);
     }
   }
   const placed = placedWhole(cap);
   if (placed?.kind === "circle") for (const point of rimPoints(placed)) squareAt(context, toScreen(view, ...point), 3);
   paintHandles(context, "#ffffff");
-  if (!active) return;
+  if (active) drawActive(context, view, cap, active);
+}
+
+/** The handle under the pointer, or last dragged: arrow keys move it. @type {(context: Context, view: View, cap: Cap, active: Handle) => void} */
+function drawActive(context, view, cap, active) {
+  const placed = placedWhole(cap);
   context.beginPath();
   if (active.kind === "vertex") {
     const { ring, index } = active.vertices[0];
@@ -183,9 +191,13 @@ function drawHandles(context, view, { cap }, desk) {
     if (points && 2 * index < points.length) {
       squareAt(context, toScreen(view, points[2 * index], points[2 * index + 1]), 4);
     }
+  } else if (placed && active.kind === "rim") {
+    squareAt(context, toScreen(view, boundsOfWhole(placed).x1, placed.cy), 4);
   } else if (placed) {
-    const at = /** @type {Point} */ (active.kind === "centre" ? [placed.cx, placed.cy] : [boundsOfWhole(placed).x1, placed.cy]);
-    squareAt(context, toScreen(view, ...at), 4);
+    const [x, y] = toScreen(view, placed.cx, placed.cy);
+    context.arc(x, y, 9, 0, 2 * Math.PI);
+    strokeCased(context, { colour: COLOURS.mark, width: 1.5, casing: CASING });
+    return;
   }
   paintHandles(context, COLOURS.mark);
 }

@@ -42,7 +42,8 @@ export function paint(context, view, region, { shapes, visible, selected }) {
   context.lineJoin = "round";
   context.lineCap = "round";
   const groups = groupsOf(shapes, view, region, selected, visible);
-  const fine = shapes.length >= MANY;
+  const count = [...groups.values()].reduce((sum, group) => sum + group.length, 0);
+  const fine = count >= MANY;
   for (const [style, group] of groups) paintGroup(context, view, group, { style, visible, fine });
 }
 

@@ -20,8 +20,8 @@ export const COLOURS = {
 };
 
 export const FILLS = {
-  outline: "rgba(69, 200, 255, 0.22)",
-  selected: "rgba(69, 200, 255, 0.16)",
+  outline: "rgba(69, 200, 255, 0.17)",
+  selected: "rgba(69, 200, 255, 0.12)",
   prediction: "rgba(201, 184, 255, 0.16)",
   ignored: "rgba(196, 202, 210, 0.6)",
   mark: "rgba(255, 111, 181, 0.14)",

@@ -76,6 +76,17 @@ export class Sync {
     this.pump();
   }
 
+  /**
+   * The server will never take what is in flight.
+   *
+   * @param {string} reason
+   */
+  giveUp(reason) {
+    const hopeless = new Set(this.#flying);
+    for (const edit of this.#outbox?.edits() ?? []) if (hopeless.has(edit.id)) this.#refuse(edit, reason);
+    this.pause();
+  }
+
   /** The connection is gone. */
   pause() {
     clearTimeout(this.#timer);

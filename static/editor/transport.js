@@ -14,6 +14,7 @@
  * @property {(token: string) => ToServer} hello  the first message
  * @property {(message: FromServer) => void} message
  * @property {(state: Connection) => void} state
+ * @property {(code: number, reason: string) => void} closed  by the server, which says why
  */
 
 const FIRST_WAIT_MS = 250;
@@ -28,7 +29,7 @@ export class Transport {
   #url;
   #events;
   /** @type {Connection} */
-  state = "offline";
+  state = "connecting";
 
   /**
    * @param {string} url
@@ -49,6 +50,7 @@ export class Transport {
     this.#token = token;
     this.#socket?.close();
     this.#socket = null;
+    this.#wait = Math.min(this.#wait, FIRST_WAIT_MS);
     this.#plan();
   }
 
@@ -77,15 +79,16 @@ export class Transport {
     const socket = new WebSocket(this.#url);
     const current = () => this.#socket === socket;
     this.#socket = socket;
-    this.#enter("connecting");
     socket.addEventListener("open", () => {
       if (current()) socket.send(JSON.stringify(this.#events.hello(this.#token)));
     });
     socket.addEventListener("message", (event) => {
       if (current()) this.#receive(JSON.parse(event.data));
     });
-    socket.addEventListener("close", () => {
-      if (current()) this.#lost();
+    socket.addEventListener("close", ({ code, reason }) => {
+      if (!current()) return;
+      this.#events.closed(code, reason);
+      this.#lost();
     });
   }
 

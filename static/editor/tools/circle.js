@@ -5,7 +5,7 @@
  * @module
  */
 
-import { boundsOfWhole, insideCap, newCap, placedWhole } from "../caps.js";
+import { boundsOfWhole, hundredths, insideCap, newCap, placedWhole } from "../caps.js";
 import { changed, withCap } from "../desk.js";
 import { SMALLEST_RADIUS, movedHandle, nearestHandle } from "../handles.js";
 import { pick } from "../hit.js";
@@ -13,7 +13,7 @@ import { CASING, COLOURS, FILLS } from "../palette.js";
 import { strokeCased, traceCross, traceWhole } from "../pen.js";
 import { newId } from "../tabs.js";
 import { toScreen } from "../view.js";
-import { CLICK_PX, GRAB_PX, apart, hundredths } from "./tool.js";
+import { CLICK_PX, GRAB_PX, apart } from "./tool.js";
 
 /** @typedef {import("../desk.js").Desk} Desk */
 /** @typedef {import("../handles.js").Handle} Handle */

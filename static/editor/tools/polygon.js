@@ -4,13 +4,13 @@
  * @module
  */
 
-import { newCap } from "../caps.js";
-import { COLOURS, CASING } from "../palette.js";
+import { hundredths, newCap } from "../caps.js";
+import { CASING, COLOURS, FILLS } from "../palette.js";
 import { strokeCased, traceRing } from "../pen.js";
 import { newId } from "../tabs.js";
 import { FEWEST } from "../vertices.js";
 import { toScreen } from "../view.js";
-import { GRAB_PX, apart, hundredths } from "./tool.js";
+import { GRAB_PX, apart } from "./tool.js";
 
 /** @typedef {import("../desk.js").Desk} Desk */
 /** @typedef {import("../messages.js").Point} Point */
@@ -124,6 +124,8 @@ export class PolygonTool {
     const points = this.#next ? [...this.#points, this.#closing ? this.#points[0] : this.#next] : this.#points;
     context.beginPath();
     traceRing(context, view, points.flat(), false);
+    context.fillStyle = FILLS.selected;
+    context.fill();
     strokeCased(context, { colour: COLOURS.draft, width: 2, casing: CASING });
     context.beginPath();
     for (const [i, point] of this.#points.entries()) {

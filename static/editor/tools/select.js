@@ -5,13 +5,13 @@
  * @module
  */
 
-import { insideCap } from "../caps.js";
+import { hundredths, insideCap } from "../caps.js";
 import { changed, movedShape, withCap } from "../desk.js";
 import { movedHandle, nearestHandle, sameHandle } from "../handles.js";
 import { pick, within } from "../hit.js";
 import { handlesAreApart } from "../overlay.js";
 import { insertedVertices, nearestEdges, removedVertices } from "../vertices.js";
-import { CLICK_PX, EDGE_PX, GRAB_PX, apart, hundredths } from "./tool.js";
+import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 
 /** @typedef {import("../desk.js").Desk} Desk */
 /** @typedef {import("../handles.js").Handle} Handle */

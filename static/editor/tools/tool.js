@@ -37,8 +37,3 @@ export const CLICK_PX = 4;
 export function apart(a, b) {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }
-
-/** Hundredths of a pixel: what is kept of where a hand has pointed. @type {(value: number) => number} */
-export function hundredths(value) {
-  return Math.round(value * 100) / 100;
-}
