@@ -88,7 +88,8 @@ class Jobs:
     ) -> Job:
         """Runs ``work`` in a thread; ``finished`` is called on the event loop when it has ended."""
         job = Job(id=next(self._ids), title=title, user=user)
-        self._jobs = [job, *self._jobs][: KEPT + sum(j.state == "running" for j in self._jobs)]
+        ended = [old for old in self._jobs if old.state != "running"]
+        self._jobs = [job, *(old for old in self._jobs if old not in ended[KEPT - 1 :])]
         task = asyncio.create_task(self._run(job, work, finished))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)

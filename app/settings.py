@@ -66,7 +66,7 @@ def _from_file(file: Path) -> dict[str, Any]:
     if not file.exists():
         return {}
     try:
-        return dict(tomllib.loads(file.read_text(encoding="utf-8")).get(TABLE, {}))
+        return tomllib.loads(file.read_text(encoding="utf-8")).get(TABLE, {})
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SettingsError(f"{file} is not valid TOML ({error}); correct or restore it.") from None
 

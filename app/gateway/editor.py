@@ -29,6 +29,7 @@ from app.gateway.messages import (
 )
 from app.gateway.names import name_of
 from app.opening import open_image, reopen, set_status, step
+from app.panels.callbacks import UNEXPECTED
 from app.panels.layout import build_panel
 from app.panels.view import toggle
 from app.session import MOST_UNSENT, Selection, Session
@@ -140,6 +141,9 @@ async def _handle(workspace: Workspace, session: Session, refits: Refits, text: 
         await _carry_out(workspace, session, refits, message)
     except FairyringError as error:
         session.notify(str(error), "error")
+    except Exception:
+        log.exception("A message of %s could not be carried out.", session.user)
+        session.notify(UNEXPECTED, "error")
 
 
 async def _carry_out(workspace: Workspace, session: Session, refits: Refits, message: Incoming) -> None:

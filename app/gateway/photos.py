@@ -27,6 +27,7 @@ WIDTHS = (160, 500, 1000, 2000, 4000)
 """Widths a photo is scaled down to; others are rounded up, so that the cache cannot be flooded."""
 DIRECT_FORMATS = frozenset({"JPEG", "PNG", "WEBP"})
 DIRECT_MODES = frozenset({"1", "L", "P", "RGB", "RGBA"})
+LARGEST_ID = 2**63 - 1
 EXIF_ORIENTATION = 0x0112
 QUALITY_FULL, QUALITY_SCALED = 95, 88
 
@@ -60,6 +61,8 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
 
 
 def _image_at(project: Project, image_id: int) -> Image | None:
+    if image_id > LARGEST_ID:
+        return None
     with project.read() as connection, suppress(StoreError):
         return get_image(connection, image_id)
     return None
@@ -82,7 +85,7 @@ def _file_for(project: Project, image: Image, width: int | None, cache: Path, ca
     made = cache / f"{image.sha256}-{width or 'full'}.jpg"
     if not made.is_file():
         _convert(source, made, image=image, width=width)
-        _make_room(cache, cache_limit)
+        make_room(cache, cache_limit)
     return made
 
 
@@ -90,8 +93,10 @@ def is_directly_showable(source: Path) -> bool:
     """Whether every browser shows this file itself just as it is decoded here: upright, 8 bits, no CMYK."""
     try:
         with PIL.Image.open(source) as opened:
+            # Pillow calls 16-bit colour "RGB"; its decoder knows better, until the EXIF data is read.
+            deep = any(";16" in str(tile[3]) for tile in opened.tile)
             upright = opened.getexif().get(EXIF_ORIENTATION, 1) == 1
-            return upright and opened.format in DIRECT_FORMATS and opened.mode in DIRECT_MODES
+            return upright and not deep and opened.format in DIRECT_FORMATS and opened.mode in DIRECT_MODES
     except (OSError, ValueError, PIL.Image.DecompressionBombError):
         return False
 
@@ -112,7 +117,7 @@ def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> No
     partial.replace(made)
 
 
-def _make_room(cache: Path, limit: int) -> None:
+def make_room(cache: Path, limit: int) -> None:
     """Drops the photos longest unused until the cache fits, and at least the newest stays."""
     files = sorted(((f.stat(), f) for f in cache.glob("*.jpg")), key=lambda entry: entry[0].st_atime)
     total = sum(stat.st_size for stat, _ in files)

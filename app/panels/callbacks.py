@@ -14,6 +14,7 @@ from model.errors import FairyringError
 
 log = logging.getLogger(__name__)
 
+UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
 Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
@@ -40,9 +41,7 @@ async def _reported(session: Session, work: Callable[[], Awaitable[None]]) -> No
         session.notify(str(error), "error")
     except Exception:
         log.exception("Something in the panel of %s failed.", session.user)
-        session.notify(
-            "That did not work because of an error in Fairyring; the server's log says more.", "error"
-        )
+        session.notify(UNEXPECTED, "error")
 
 
 class Redrawing:

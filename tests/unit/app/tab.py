@@ -139,6 +139,13 @@ class Tab:
         except TimeoutError:
             return True
 
+    def close_code(self) -> int:
+        """Waits until the server closes the editor's socket, and with which code."""
+        with suppress(ConnectionClosed):
+            while True:
+                self.editor.recv(DEADLINE_S)
+        return until(lambda: self.editor.close_code, "a close code")
+
     def edit(self, *edits: Edit) -> Outcomes:
         """Sends a change set and waits for its outcomes."""
         self.send(Edits(edits=list(edits)))

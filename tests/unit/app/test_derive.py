@@ -1,0 +1,119 @@
+"""Whole outlines and centres, from marks and from what is visible."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.derive import derive_edits, fill_in, outlines_of, refit, whole_of
+from app.gateway.messages import Refit
+from app.nearby import box_of, keys_near
+from model.geometry import Circle, Ellipse, Polygon, diameter_of_shape
+from storage.derived import images_with_underived
+from storage.documents import load_annotations, load_document
+from storage.journal import Derived, commit
+from storage.project import Project
+from storage.records import Cap, Edit, Image
+from tests.unit.app.conftest import circle
+from tests.unit.app.tab import SQUARE, new_cap
+
+IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=160, height=120, sha256="")
+
+
+def test_a_mark_is_its_own_whole_outline() -> None:
+    for mark in (Circle(50, 40, 10), Ellipse(50, 40, 12, 10, 30)):
+        whole = whole_of(SQUARE, mark, image=IMAGE, around={})
+        assert whole.shape == mark
+        assert whole.centre == (50, 40)
+
+
+def test_a_marked_polygon_gives_the_ellipse_fitted_to_its_points() -> None:
+    whole = whole_of([], Polygon(circle(60, 50, 20, points=20)[0]), image=IMAGE, around={})
+    assert whole.centre == pytest.approx((60, 50), abs=1e-6)
+    assert "polygon" in whole.note
+
+
+def test_a_round_cap_is_found_where_it_is() -> None:
+    whole = whole_of(circle(70.25, 55.5, 24), None, image=IMAGE, around={})
+    assert whole.centre == pytest.approx((70.25, 55.5), abs=0.1)
+    assert whole.shape is not None
+    assert diameter_of_shape(whole.shape) == pytest.approx(48, abs=1)
+
+
+@pytest.mark.parametrize(
+    "visible", [[], [[]], [[1.0, 2.0]], [[1.0, 2.0, 3.0]], [[1e12, 0.0, 0.0, 1e12, -1e12, 0.0]], [[5.0] * 8]]
+)
+def test_a_wild_outline_gives_a_sentence_and_never_reaches_the_rasteriser(visible: list) -> None:
+    whole = whole_of(visible, None, image=IMAGE, around={})
+    assert whole.shape is None
+    assert whole.note.endswith(".")
+
+
+@pytest.mark.parametrize("mark", [Circle(50, 40, -1), Circle(1e12, 0, 5), Polygon([1.0, 2.0, 3.0])])
+def test_a_wild_mark_gives_a_sentence(mark: Circle | Polygon) -> None:
+    assert whole_of(SQUARE, mark, image=IMAGE, around={}).shape is None
+
+
+def test_neighbours_are_those_whose_boxes_touch() -> None:
+    others = {"touching": circle(80, 40, 20), "far": circle(150, 40, 5), "nothing": []}
+    assert keys_near(circle(40, 40, 20), others) == ["touching"]
+    assert keys_near(circle(40, 40, 20), others, reach=3.0) == ["touching", "far"]
+    assert keys_near([], others) == []
+    assert box_of(SQUARE) == (20.0, 20.0, 60.0, 60.0)
+
+
+def test_context_leaves_out_predictions_that_somebody_took_up(project: Project) -> None:
+    with project.read() as connection:
+        document = load_document(connection, 1)
+    left, right = document.predictions
+    commit(project, [Derived(edit=new_cap(1, prediction=left.id))], user="Ada")
+    with project.read() as connection:
+        annotations = {a.uid: a for a in load_annotations(connection, 1)}
+    assert set(outlines_of(document, annotations)) == {"cap-1", f"prediction {right.id}"}
+
+
+def test_a_refit_says_what_the_edit_will_store(project: Project) -> None:
+    cap = Cap(visible=circle(90, 70, 18))
+    with project.read() as connection:
+        document = load_document(connection, 1)
+    fit = refit(document, {}, Refit(seq=1, image=1, annotation="a", cap=cap))
+    stored = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])[0]
+    assert fit.whole == stored.whole
+    assert fit.centre == stored.centre
+
+
+def test_edits_that_make_no_sense_are_left_to_the_journal(project: Project) -> None:
+    wild = new_cap(1, uid="w", edit="e1", visible=[[1e12, 0.0, 0.0, 1e12, 5.0, 5.0]])
+    elsewhere = new_cap(404, uid="x", edit="e2")
+    deletion = Edit(id="e3", annotation="y", image=1, base=3, cap=None)
+    good = new_cap(1, uid="z", edit="e4")
+    found = derive_edits(project, [wild, elsewhere, deletion, good])
+    assert [item.edit for item in found] == [wild, elsewhere, deletion, good]
+    assert [item.whole is None for item in found] == [True, True, True, False]
+
+
+def test_filling_in_finds_what_is_missing_and_then_nothing_more(project: Project) -> None:
+    commit(project, [Derived(edit=new_cap(2, mark=Circle(30, 30, 9)))], user="Ada")
+    seen: list[tuple[int, int, str]] = []
+    assert fill_in(project, progress=lambda *step: seen.append(step)) == 3
+    assert [step[:2] for step in seen] == [(0, 2), (1, 2)]
+    with project.read() as connection:
+        assert images_with_underived(connection) == []
+        marked = load_annotations(connection, 2)[0]
+        left, right = load_document(connection, 1).predictions
+    assert marked.centre == (30, 30)
+    assert left.centre == pytest.approx((40, 40), abs=0.25)
+    assert right.centre == pytest.approx((110, 60), abs=0.25)
+    assert fill_in(project) == 0
+
+
+def test_filling_in_can_be_stopped_between_images(project: Project) -> None:
+    commit(project, [Derived(edit=new_cap(2))], user="Ada")
+
+    def stop(done: int, _total: int, _what: str) -> None:
+        if done == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        fill_in(project, progress=stop)
+    with project.read() as connection:
+        assert images_with_underived(connection) == [2]
