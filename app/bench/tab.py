@@ -41,7 +41,7 @@ class Tab:
         if self.page.get_by_label("Your name").count():
             self.page.get_by_label("Your name").fill(name)
             self.page.keyboard.press("Enter")
-        self.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'open'")
+        self.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
         for notice in self.page.get_by_text("Software WebGL rendering detected").all():
             notice.locator("xpath=../..").get_by_role("button").click()
 
