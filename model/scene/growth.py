@@ -1,0 +1,120 @@
+"""How a bed grows: caps come up in clusters, rise on their stalks and push each other aside.
+
+Bed coordinates: x and y in the plane of the soil, z up from it, in the pixels of ``settings.Growth``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.scene.settings import Growth
+
+Floats = NDArray[np.float64]
+Rectangle = tuple[float, float, float, float]
+"""left, top, right, bottom on the bed."""
+
+SETTLING_STEPS = 36
+FLATNESS = 0.75
+"""A cap is lower than it is wide, so two meet above each other sooner than their radii say."""
+
+
+class Stand(NamedTuple):
+    """The n caps of a bed as grown."""
+
+    radius: Floats
+    """(n,)"""
+    foot: Floats
+    """(n, 2): where the stalk leaves the soil."""
+    place: Floats
+    """(n, 3): the middle of the cap, in the plane of its rim."""
+    axis: Floats
+    """(n, 3): unit vectors out of the tops of the caps."""
+
+
+class Pairs(NamedTuple):
+    """Caps that may touch, by index: (p,) each."""
+
+    first: NDArray[np.intp]
+    second: NDArray[np.intp]
+
+
+def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Generator) -> Stand:
+    """``count`` caps on a rectangle of soil, settled so that caps side by side hardly overlap."""
+    radius = _draw_diameters(growth, count, rng) / 2
+    foot = _sprout(growth, radius, ground, rng)
+    # In units of the radius: the large ones have grown over their neighbours.
+    rise = radius * np.maximum(growth.height + growth.height_spread * rng.standard_normal(count), 0.3)
+    lean = np.tan(np.radians(np.clip(growth.lean_deg * rng.standard_normal((count, 2)), -55, 55)))
+    wanted = np.column_stack([foot + lean * rise[:, None], rise])
+    place = _settle(wanted, radius, give=0.2 * growth.squeeze)
+    stalk = place - np.column_stack([foot, np.zeros(count)])
+    axis = np.column_stack([0.5 * lean + 0.5 * stalk[:, :2] / stalk[:, 2:], np.ones(count)])
+    return Stand(radius, foot, place, axis / np.linalg.norm(axis, axis=1, keepdims=True))
+
+
+def pairs_within(centre: Floats, reach: Floats) -> Pairs:
+    """Pairs of points (n, 2) closer than the sum of their reaches (n,)."""
+    apart = np.linalg.norm(centre[:, None] - centre[None], axis=2)
+    first, second = np.nonzero(np.triu(apart < reach[:, None] + reach[None], k=1))
+    return Pairs(first, second)
+
+
+def _draw_diameters(growth: Growth, count: int, rng: np.random.Generator) -> Floats:
+    logs = np.log(growth.diameters)
+    return np.exp(np.interp(rng.random(count), (0.0, 0.1, 0.5, 0.9, 1.0), logs))
+
+
+def _sprout(growth: Growth, radius: Floats, ground: Rectangle, rng: np.random.Generator) -> Floats:
+    """(n, 2) feet: each cap comes up beside an earlier one of its cluster, in any direction."""
+    left, top, right, bottom = ground
+    foot = np.zeros((len(radius), 2))
+    founders: list[int] = []
+    start = 0
+    while start < len(radius):
+        end = min(start + int(rng.geometric(1 / growth.cluster)), len(radius))
+        trials = rng.uniform((left, top), (right, bottom), (6, 2))
+        foot[start] = _loneliest(trials, foot[founders])
+        founders.append(start)
+        for cap in range(start + 1, end):
+            parent = int(rng.integers(start, cap))
+            angle = rng.uniform(0, 2 * np.pi)
+            distance = growth.spread * (radius[cap] + radius[parent]) * rng.uniform(0.7, 1.3)
+            foot[cap] = foot[parent] + distance * np.array([np.cos(angle), np.sin(angle)])
+        start = end
+    return foot
+
+
+def _loneliest(trials: Floats, taken: Floats) -> Floats:
+    """The trial furthest from its nearest neighbour, so that clusters do not all come up in one place."""
+    if len(taken) == 0:
+        return trials[0]
+    distance = np.linalg.norm(trials[:, None] - taken[None], axis=2).min(axis=1)
+    return trials[distance.argmax()]
+
+
+def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:
+    """(n, 3): pushes caps that run into each other apart while their stalks pull them back.
+
+    ``give`` is the share of two caps' distance by which they may run into each other.
+    """
+    place = wanted.copy()
+    stretch = np.array([1.0, 1.0, 1.0 / FLATNESS])
+    first, second = pairs_within(place[:, :2], 1.5 * radius)
+    for _ in range(SETTLING_STEPS):
+        between = (place[second] - place[first]) * stretch
+        distance = np.maximum(np.linalg.norm(between, axis=1), 1e-6)
+        excess = np.maximum((radius[first] + radius[second]) * (1 - give) - distance, 0)
+        push = 0.4 * excess[:, None] * between / distance[:, None] / stretch
+        share = (radius[second] ** 2 / (radius[first] ** 2 + radius[second] ** 2))[:, None]
+        place -= _summed(first, push * share, len(place))
+        place += _summed(second, push * (1 - share), len(place))
+        place += 0.06 * (wanted - place)
+        place[:, 2] = np.maximum(place[:, 2], 0.25 * radius)
+    return place
+
+
+def _summed(index: NDArray[np.intp], vectors: Floats, count: int) -> Floats:
+    return np.column_stack([np.bincount(index, vectors[:, axis], count) for axis in range(vectors.shape[1])])

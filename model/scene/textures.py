@@ -1,0 +1,124 @@
+"""Tiles of noise that everything on a bed is textured with.
+
+Every tile is float32 and repeats seamlessly, is made once a process from a fixed seed, and is looked up at a
+random place, turned a random way, so that two caps never carry the same skin.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Tile = NDArray[np.float32]
+"""(SIZE, SIZE) or (SIZE, SIZE, channels)."""
+
+SIZE = 1024
+
+
+def look_up(tile: Tile, x: NDArray[np.float32], y: NDArray[np.float32]) -> Tile:
+    """The tile at float32 coordinates of any size, repeating; bilinear."""
+    return cv2.remap(tile, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP)
+
+
+@lru_cache(maxsize=None)
+def cloud() -> Tile:
+    """Soft clouds of all sizes: mean 0, standard deviation 1."""
+    return _noise(seed=1, slope=1.7, coarsest=300.0, finest=6.0)
+
+
+@lru_cache(maxsize=None)
+def clods() -> Tile:
+    """Lumps of soil with creases between: mean 0, standard deviation 1."""
+    lumps = sum(
+        size * np.abs(_noise(seed=10 + octave, slope=1.0, coarsest=2.0 * size, finest=0.6 * size))
+        for octave, size in enumerate((70.0, 34.0, 16.0, 8.0))
+    )
+    grit = _noise(seed=14, slope=0.3, coarsest=6.0, finest=2.0)
+    return _standardised(np.asarray(lumps) + 2.0 * grit)
+
+
+@lru_cache(maxsize=None)
+def threads() -> Tile:
+    """Strands: 1 on a strand, falling to 0 away from it, branching at several sizes."""
+    strands = np.zeros((SIZE, SIZE), np.float32)
+    for octave, size in enumerate((120.0, 60.0, 30.0)):
+        wave = _noise(seed=20 + octave, slope=1.4, coarsest=2 * size, finest=6.0)
+        strands = np.maximum(strands, np.exp(-((np.abs(wave) / 0.09) ** 1.2)) * (1.0 - 0.2 * octave))
+    return strands.astype(np.float32)
+
+
+@lru_cache(maxsize=None)
+def grain() -> Tile:
+    """Fine, even noise: mean 0, standard deviation 1."""
+    return _noise(seed=30, slope=0.5, coarsest=10.0, finest=1.6)
+
+
+@lru_cache(maxsize=None)
+def skin() -> Tile:
+    """Channels: blotches, pores, and the slope of the skin's relief in x and in y; each mean 0, deviation 1."""
+    relief = _noise(seed=40, slope=0.9, coarsest=26.0, finest=2.2)
+    slope_x = np.roll(relief, -1, axis=1) - np.roll(relief, 1, axis=1)
+    slope_y = np.roll(relief, -1, axis=0) - np.roll(relief, 1, axis=0)
+    pores = _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8)
+    return np.dstack([cloud(), pores, _standardised(slope_x), _standardised(slope_y)])
+
+
+@lru_cache(maxsize=None)
+def plates() -> Tile:
+    """Cells of about 24 px: channel 0 is the distance to the cell's border, px, channel 1 a value a cell."""
+    rng = np.random.default_rng(50)
+    count = (SIZE // 24) ** 2
+    seeds = np.ones((SIZE, SIZE), np.uint8)
+    seeds[tuple(rng.integers(0, SIZE, (2, count)))] = 0
+    tiled = np.pad(seeds, 96, mode="wrap")
+    _, owner = cv2.distanceTransformWithLabels(tiled, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    border = (owner != np.roll(owner, 1, axis=0)) | (owner != np.roll(owner, 1, axis=1))
+    distance = cv2.distanceTransform((~border).astype(np.uint8), cv2.DIST_L2, 5)
+    value = rng.random(int(owner.max()) + 1)[owner]
+    inner = slice(96, -96)
+    return np.dstack([distance[inner, inner], value[inner, inner]]).astype(np.float32)
+
+
+@lru_cache(maxsize=None)
+def crumbs() -> Tile:
+    """Pinheads and white crumbs: channel 0 their height over the soil, px, channel 1 a value each; 0 between."""
+    rng = np.random.default_rng(60)
+    height = np.zeros((SIZE, SIZE), np.float32)
+    value = np.zeros((SIZE, SIZE), np.float32)
+    middle = rng.uniform(0, SIZE, (900, 2))
+    for x, y in middle[rng.integers(0, len(middle), 9000)] + rng.normal(0, 7.0, (9000, 2)):
+        radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
+        _raise_crumb(height, value, x, y, radius=radius, rng=rng)
+    return np.dstack([height, value])
+
+
+def _raise_crumb(height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator) -> None:
+    reach = int(radius * 1.5) + 2
+    columns = np.arange(int(x) - reach, int(x) + reach + 1)
+    rows = np.arange(int(y) - reach, int(y) + reach + 1)
+    dx, dy = np.meshgrid(columns - x, rows - y)
+    stretch, angle = rng.uniform(1.0, 1.5), rng.uniform(0, np.pi)
+    along = (dx * np.cos(angle) + dy * np.sin(angle)) / stretch
+    across = (dy * np.cos(angle) - dx * np.sin(angle)) * stretch
+    dome = 1.3 * np.sqrt(np.maximum(radius**2 - along**2 - across**2, 0))
+    where = np.ix_(rows % SIZE, columns % SIZE)
+    higher = dome > height[where]
+    height[where] = np.where(higher, dome, height[where])
+    value[where] = np.where(higher, rng.random(), value[where])
+
+
+def _noise(*, seed: int, slope: float, coarsest: float, finest: float) -> Tile:
+    """Gaussian noise of amplitude ∝ frequency^-slope between two wavelengths in px."""
+    frequency = np.hypot(np.fft.fftfreq(SIZE)[:, None], np.fft.rfftfreq(SIZE)[None])
+    frequency[0, 0] = 1.0
+    band = np.exp(-((frequency * finest / 2) ** 2)) * -np.expm1(-((frequency * coarsest) ** 4))
+    band[0, 0] = 0.0
+    white = np.fft.rfft2(np.random.default_rng(seed).standard_normal((SIZE, SIZE)))
+    return _standardised(np.fft.irfft2(white * band * frequency**-slope, s=(SIZE, SIZE)))
+
+
+def _standardised(values: NDArray[np.floating]) -> Tile:
+    return ((values - values.mean()) / values.std()).astype(np.float32)
