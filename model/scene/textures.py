@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 Tile = NDArray[np.float32]
-"""(SIZE, SIZE) or (SIZE, SIZE, channels)."""
+"""(side, side) or (side, side, channels)."""
 
 SIZE = 1024
+SPECK_CELL = 16
 
 
 def look_up(tile: Tile, x: NDArray[np.float32], y: NDArray[np.float32]) -> Tile:
@@ -83,13 +84,33 @@ def plates() -> Tile:
 
 
 @lru_cache(maxsize=None)
+def specks() -> Tile:
+    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1]."""
+    rng = np.random.default_rng(70)
+    cells = 512 // SPECK_CELL
+    value = np.kron(rng.random((cells, cells)), np.ones((SPECK_CELL, SPECK_CELL)))
+    dark = np.zeros_like(value)
+    offset = np.arange(SPECK_CELL) + 0.5 - SPECK_CELL / 2
+    for row in range(cells):
+        for column in range(cells):
+            (x, y), angle = rng.uniform(-2.5, 2.5, 2), rng.uniform(0, np.pi)
+            long, wide = rng.lognormal(0.2, 0.45), rng.lognormal(-0.25, 0.35)
+            dx, dy = np.meshgrid(offset - x, offset - y)
+            along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
+            spot = np.clip(1.4 - np.hypot(along / long, across / wide), 0, 1) * rng.uniform(0.5, 1.0)
+            dark[row * SPECK_CELL :, column * SPECK_CELL :][:SPECK_CELL, :SPECK_CELL] = spot
+    return np.dstack([dark, value]).astype(np.float32)
+
+
+@lru_cache(maxsize=None)
 def crumbs() -> Tile:
     """Pinheads and white crumbs: channel 0 their height over the soil, px, channel 1 a value each; 0 between."""
     rng = np.random.default_rng(60)
-    height = np.zeros((SIZE, SIZE), np.float32)
-    value = np.zeros((SIZE, SIZE), np.float32)
-    middle = rng.uniform(0, SIZE, (900, 2))
-    for x, y in middle[rng.integers(0, len(middle), 9000)] + rng.normal(0, 7.0, (9000, 2)):
+    side, count = 640, 4000
+    height = np.zeros((side, side), np.float32)
+    value = np.zeros((side, side), np.float32)
+    middle = rng.uniform(0, side, (count // 9, 2))
+    for x, y in middle[rng.integers(0, len(middle), count)] + rng.normal(0, 7.0, (count, 2)):
         radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
         _raise_crumb(height, value, x, y, radius=radius, rng=rng)
     return np.dstack([height, value])
@@ -104,7 +125,7 @@ def _raise_crumb(height: Tile, value: Tile, x: float, y: float, *, radius: float
     along = (dx * np.cos(angle) + dy * np.sin(angle)) / stretch
     across = (dy * np.cos(angle) - dx * np.sin(angle)) * stretch
     dome = 1.3 * np.sqrt(np.maximum(radius**2 - along**2 - across**2, 0))
-    where = np.ix_(rows % SIZE, columns % SIZE)
+    where = np.ix_(rows % len(height), columns % len(height))
     higher = dome > height[where]
     height[where] = np.where(higher, dome, height[where])
     value[where] = np.where(higher, rng.random(), value[where])

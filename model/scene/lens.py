@@ -1,0 +1,93 @@
+"""From light to a photo: vignette, focus, sensor noise, white balance, tone curve."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from model.scene.caps import Image
+from model.scene.settings import Camera
+
+LEVELS = 4096
+SATURATION = 1.6
+"""Linear light at which the sensor is full."""
+
+
+class Shot(NamedTuple):
+    """What was drawn for one photo."""
+
+    pitch_deg: float
+    vignette: float
+    balance: NDArray[np.float32]
+    """(3,) gains, blue first."""
+    exposure: float
+    focus: float
+    """Where between the soil and the highest cap the focus lies, 0–1."""
+    jpeg: int
+
+
+def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
+    """One photo's camera."""
+    balance = np.exp(camera.tint * rng.standard_normal(3) * (1, 0.3, 1)).astype(np.float32)
+    return Shot(
+        pitch_deg=rng.uniform(*camera.pitch_deg),
+        vignette=rng.uniform(*camera.vignette),
+        balance=balance,
+        exposure=camera.exposure * np.exp(0.08 * rng.standard_normal()),
+        focus=rng.uniform(0.4, 0.9),
+        jpeg=int(rng.integers(camera.jpeg[0], camera.jpeg[1] + 1)),
+    )
+
+
+def expose(
+    light: Image, z: Image, *, camera: Camera, shot: Shot, dimness: float, rng: np.random.Generator
+) -> NDArray[np.uint8]:
+    """Linear light (rows, columns, 3) and view z (rows, columns) → an 8-bit BGR photo."""
+    rows, columns = z.shape
+    seen = _focused(light, z, camera=camera, shot=shot)
+    seen = seen * (shot.exposure * _vignette(rows, columns, shot.vignette))[..., None] * shot.balance
+    seen += _noise(seen, camera.noise * dimness, rng)
+    index = np.clip(seen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
+    return _tone_curve()[index]
+
+
+def _focused(light: Image, z: Image, *, camera: Camera, shot: Shot) -> Image:
+    """Sharp where the focus lies, blurred in front of and behind it."""
+    sharp = cv2.GaussianBlur(light, (0, 0), camera.sharpness)
+    if camera.defocus == 0:
+        return sharp
+    low, high = np.percentile(z[::8, ::8], (2, 99))
+    off = np.abs(z - (low + shot.focus * (high - low)))
+    blur = cv2.GaussianBlur(off, (0, 0), 5.0) * np.float32(camera.defocus / 150.0)
+    most = max(float(blur.max()), 1e-3)
+    soft = cv2.GaussianBlur(light, (0, 0), float(np.hypot(camera.sharpness, most)))
+    # Variances add: this mixture of the two has the variance the blur asks for.
+    share = (blur / most) ** 2
+    return sharp + (soft - sharp) * share[..., None]
+
+
+def _vignette(rows: int, columns: int, amount: float) -> Image:
+    x = np.linspace(-1, 1, columns, dtype=np.float32)[None]
+    y = np.linspace(-1, 1, rows, dtype=np.float32)[:, None]
+    return 1 - amount * ((x * x + y * y) / 2) ** 1.3
+
+
+def _noise(seen: Image, amount: float, rng: np.random.Generator) -> Image:
+    """Grows with the root of the light; mostly in brightness, a little in colour, smeared by demosaicing."""
+    rows, columns, _ = seen.shape
+    grey = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
+    coarse = rng.standard_normal((rows // 2, columns // 2, 3), np.float32)
+    colour = cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
+    strength = np.sqrt(np.maximum(seen[..., 1], 0) * np.float32(6e-5) + np.float32(4e-6)) * np.float32(amount)
+    return (2.0 * grey[..., None] + 0.6 * colour) * strength[..., None]
+
+
+def _tone_curve() -> NDArray[np.uint8]:
+    """sRGB with a shoulder: highlights roll off instead of clipping."""
+    linear = np.linspace(0, SATURATION, LEVELS)
+    bright = np.where(linear < 0.6, linear, 0.6 + 0.38 * np.tanh((linear - 0.6) / 0.38))
+    srgb = np.where(bright <= 0.0031308, 12.92 * bright, 1.055 * bright ** (1 / 2.4) - 0.055)
+    return np.rint(255 * srgb).astype(np.uint8)

@@ -1,0 +1,157 @@
+"""The casing soil: peat with clods, white mycelium in strands and clumps, pinheads, litter, the bed's edge."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from model.scene import textures
+from model.scene.caps import Image
+from model.scene.growth import Floats
+from model.scene.settings import Soil
+from model.scene.view import Ground, View, project
+
+PEAT = np.array([0.0050, 0.0052, 0.0050], np.float32)
+LOAM = np.array([0.022, 0.034, 0.050], np.float32)
+MYCELIUM = np.array([0.50, 0.50, 0.48], np.float32)
+PINHEAD = np.array([0.52, 0.62, 0.66], np.float32)
+STRAW = np.array([0.06, 0.16, 0.28], np.float32)
+ROOT = np.array([0.008, 0.013, 0.02], np.float32)
+CRUMB_REACH = 70.0
+"""Pinheads stand about this far around the feet of grown caps, px."""
+
+
+class Bare(NamedTuple):
+    """The bed without caps: colour (rows, columns, 3), view z and normals."""
+
+    colour: Image
+    z: Image
+    normal: Image
+
+
+class Sowing(NamedTuple):
+    """What was drawn for the soil of one image."""
+
+    brightness: float
+    mycelium: float
+    pinheads: float
+    edge: tuple[float, float] | None
+    """x of the bed's edge on the bed, and which side is off it: -1 left, 1 right."""
+
+
+def draw_sowing(soil: Soil, *, width: int, rng: np.random.Generator) -> Sowing:
+    """One image's soil."""
+    has_edge, side, depth = rng.random(3)
+    away = width * (0.04 + 0.1 * depth)
+    edge = ((away, -1.0) if side < 0.5 else (width - away, 1.0)) if has_edge < soil.edge else None
+    return Sowing(rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge)
+
+
+def lay_soil(
+    soil: Soil, sowing: Sowing, *, ground: Ground, view: View, feet: Floats, rng: np.random.Generator
+) -> Bare:
+    """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
+    x, y = _wander(ground, rng)
+    relief = textures.look_up(textures.clods(), x, y)
+    cloud = textures.look_up(textures.cloud(), 0.7 * x, 0.7 * y)
+    grain = textures.look_up(textures.grain(), x, y)
+    near = _nearness(feet, view)
+
+    earth = PEAT + (LOAM - PEAT) * sowing.brightness
+    colour = earth * np.clip(1.0 + 0.45 * relief + 0.3 * grain, 0.15, 4)[..., None]
+    height = 0.5 * soil.relief * relief + 0.5 * grain
+
+    fluff = _mycelium(x, y, cloud, near, amount=sowing.mycelium)
+    colour += (MYCELIUM * (0.8 + 0.15 * grain)[..., None] - colour) * fluff[..., None]
+    height += 3.0 * fluff
+
+    rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
+    colour = np.where((rise > 0)[..., None], PINHEAD * (0.75 + 0.4 * tone)[..., None], colour)
+    height += rise
+
+    _scatter_litter(colour, height, count=int(rng.poisson(soil.litter)), rng=rng)
+    if sowing.edge is not None:
+        _end_bed(colour, height, ground, relief, edge=sowing.edge)
+    return Bare(colour.astype(np.float32), (ground.z + height).astype(np.float32), _normals(height))
+
+
+def _wander(ground: Ground, rng: np.random.Generator) -> tuple[Image, Image]:
+    angle = rng.uniform(0, 2 * np.pi)
+    ox, oy = rng.uniform(0, textures.SIZE, 2)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    x = ground.x * cosine - ground.y * sine + ox
+    y = ground.x * sine + ground.y * cosine + oy
+    return x.astype(np.float32), y.astype(np.float32)
+
+
+def _nearness(feet: Floats, view: View) -> Image:
+    """1 where many caps stand, falling to 0 away from them."""
+    coarse = 8
+    image, _, _ = project(view, np.column_stack([feet, np.zeros(len(feet))]))
+    small = np.zeros((-(-view.height // coarse), -(-view.width // coarse)), np.float32)
+    for x, y in image / coarse:
+        cv2.circle(small, (round(float(x)), round(float(y))), 2, 1.0, -1)
+    blurred = cv2.GaussianBlur(small, (0, 0), CRUMB_REACH / coarse / 2)
+    near = np.clip(3 * blurred, 0, 1)
+    return cv2.resize(near, (view.width, view.height), interpolation=cv2.INTER_LINEAR)
+
+
+def _mycelium(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> Image:
+    """Share of white: strands everywhere a little, felted to clumps in some regions."""
+    strands = textures.look_up(textures.threads(), 0.6 * x, 0.6 * y)
+    fine = textures.look_up(textures.threads(), 1.3 * y, 1.3 * x)
+    felt = textures.look_up(textures.cloud(), 3.1 * y, 3.1 * x)
+    region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
+    clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
+    web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
+    return np.clip(np.maximum(0.75 * web, clump * (0.35 + 0.5 * fine + 0.4 * strands)), 0, 1) * 0.9
+
+
+def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
+    """Height and tone of pinheads and crumbs, thickest around the caps."""
+    rise, tone = np.moveaxis(textures.look_up(textures.crumbs(), x, y), 2, 0)
+    other, other_tone = np.moveaxis(textures.look_up(textures.crumbs(), 1.4 * y + 211, 1.4 * x + 97), 2, 0)
+    region = 2.2 * amount - 1.5 + 0.5 * cloud + 0.9 * near
+    first = np.where(region > 0.1, rise, 0)
+    second = np.where(region > 0.45, 0.8 * other, 0)
+    return np.maximum(first, second), np.where(first >= second, tone, other_tone)
+
+
+def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
+    """Straws and roots, drawn over the soil."""
+    rows, columns = height.shape
+    for _ in range(count):
+        start = rng.uniform((0, 0), (columns, rows))
+        heading = rng.uniform(0, 2 * np.pi) + np.cumsum(rng.normal(0, 0.25, 6))
+        steps = rng.uniform(4, 16) * np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        line = np.rint(16 * (start + np.vstack([[0, 0], np.cumsum(steps, axis=0)]))).astype(np.int32)
+        thick = int(rng.integers(1, 4))
+        tone = (STRAW if rng.random() < 0.4 else ROOT) * rng.uniform(0.5, 1.3)
+        cv2.polylines(colour, [line], False, tone.tolist(), thick, cv2.LINE_8, 4)
+        raised = np.zeros_like(height[:1, :1])
+        left, top = np.maximum(line.min(axis=0) // 16 - 4, 0)
+        right, bottom = line.max(axis=0) // 16 + 5
+        window = height[top:bottom, left:right]
+        if window.size:
+            raised = np.zeros_like(window)
+            cv2.polylines(raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4)
+            window += raised
+
+
+def _end_bed(colour: Image, height: Image, ground: Ground, relief: Image, *, edge: tuple[float, float]) -> None:
+    """Beyond the edge: the dark aisle, and the worn board that holds the soil."""
+    where, side = edge
+    beyond = (ground.x - where) * side + 3 * relief
+    board = (beyond > 0) & (beyond < 12)
+    colour[beyond >= 12] *= 0.15
+    colour[board] = PEAT + (LOAM * np.clip(relief[board], 0.2, 2.5)[:, None] * 0.8)
+    height -= np.clip(beyond, 0, 60).astype(np.float32)
+
+
+def _normals(height: Image) -> Image:
+    slope_x = cv2.Sobel(height, cv2.CV_32F, 1, 0, ksize=3, scale=1 / 8)
+    slope_y = cv2.Sobel(height, cv2.CV_32F, 0, 1, ksize=3, scale=1 / 8)
+    length = np.sqrt(slope_x * slope_x + slope_y * slope_y + 1)
+    return np.dstack([-slope_x / length, -slope_y / length, 1 / length])
