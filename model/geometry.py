@@ -26,6 +26,7 @@ from model.errors import FairyringError
 Outline = list[list[float]]
 Points = NDArray[np.float64]
 """(n, 2): x, y."""
+Centre = tuple[float, float]
 
 
 class GeometryError(FairyringError):
@@ -82,12 +83,12 @@ def indices_of_points(points: ArrayLike) -> Points:
     return np.asarray(points, dtype=np.float64).reshape(-1, 2) - 0.5
 
 
-def keypoint_of_centre(centre: tuple[float, float]) -> tuple[float, float]:
+def keypoint_of_centre(centre: Centre) -> tuple[float, float]:
     """A centre as the x, y of a COCO keypoint, which is a pixel index."""
     return centre[0] - 0.5, centre[1] - 0.5
 
 
-def centre_of_keypoint(x: float, y: float) -> tuple[float, float]:
+def centre_of_keypoint(x: float, y: float) -> Centre:
     """The x, y of a COCO keypoint as a centre."""
     return x + 0.5, y + 0.5
 
@@ -121,6 +122,16 @@ def polygon_of_shape(shape: Circle | Ellipse, *, chord_error: float = 0.1) -> li
     half_angle = math.acos(max(0.0, 1.0 - chord_error / max(shape.a, chord_error)))
     count = max(12, 2 * math.ceil(math.pi / half_angle / 2))
     return part_of_points(points_on_ellipse(shape, np.arange(count) * (2 * math.pi / count)))
+
+
+def centre_of_shape(shape: Shape) -> Centre:
+    """Its middle."""
+    return shape.cx, shape.cy
+
+
+def diameter_of_shape(shape: Shape) -> float:
+    """Of a circle its diameter; of an ellipse that of the circle of the same area."""
+    return 2 * (shape.r if isinstance(shape, Circle) else math.sqrt(shape.a * shape.b))
 
 
 def points_on_ellipse(ellipse: Ellipse, angles: ArrayLike) -> Points:

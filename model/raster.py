@@ -102,6 +102,14 @@ def iou_matrix(first: Sequence[Rle], second: Sequence[Rle]) -> NDArray[np.float6
     return np.asarray(coco.iou(list(first), list(second), [0] * len(second)), dtype=np.float64)
 
 
+def share_inside(rle: Rle, regions: Sequence[Rle]) -> float:
+    """The share of a mask's pixels that lie in any of the regions, all of one size; 0 of an empty mask."""
+    if not regions:
+        return 0.0
+    union = coco.merge(list(regions), intersect=False)
+    return float(coco.iou([rle], [union], [1])[0, 0])
+
+
 def check_rle(rle: Any) -> Rle:
     """An RLE as a file holds it (counts a list, or a compressed string) as a compressed one, checked.
 

@@ -51,7 +51,7 @@ _ANNOTATION_LACKS = and_(
 _PREDICTION_LACKS = and_(prediction.c.whole.is_(None), prediction.c.refusal.is_(None))
 
 
-def underived_images(connection: Connection) -> list[int]:
+def images_with_underived(connection: Connection) -> list[int]:
     """The images in which something is lacking."""
     of_latest_run = and_(image.c.id == prediction.c.image, image.c.run == prediction.c.run)
     statement = union(
@@ -61,7 +61,7 @@ def underived_images(connection: Connection) -> list[int]:
     return sorted(connection.execute(statement).scalars())
 
 
-def underived(connection: Connection, image_id: int) -> Underived:
+def underived_of(connection: Connection, image_id: int) -> Underived:
     """What one image lacks."""
     latest = select(image.c.run).where(image.c.id == image_id).scalar_subquery()
     annotations = select(annotation.c.uid).where(annotation.c.image == image_id, _ANNOTATION_LACKS)

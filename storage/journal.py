@@ -19,11 +19,15 @@ from storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, 
 from storage.rows import (
     SELECT_ANNOTATIONS,
     annotation_of,
+    ensure_category,
     load_categories,
     require_image,
     values_of_cap,
     values_of_fit,
 )
+
+DEFAULT_CATEGORY = "mushroom"
+"""May be used before anybody has made it; other categories come from imports."""
 
 
 class Derived(Struct, frozen=True, kw_only=True):
@@ -148,6 +152,8 @@ def _checked(connection: Connection, edit: Edit, categories: dict[str, int]) -> 
         if edit.base == 0:
             raise StoreError("An annotation that was never made cannot be deleted.")
         return None
+    if edit.cap.category == DEFAULT_CATEGORY:
+        ensure_category(connection, DEFAULT_CATEGORY, categories=categories)
     if edit.cap.category not in categories:
         raise StoreError(f"The project has no category “{edit.cap.category}”.")
     if edit.cap.prediction is not None:

@@ -129,7 +129,7 @@ def _values(
     cap = check_cap(Cap(visible=new.visible, category=new.category), width=width, height=height)
     return {
         "uid": new.uid or uuid4().hex,
-        "category": ensure_category(connection, new.category, categories=categories, extra={}),
+        "category": ensure_category(connection, new.category, categories=categories),
         "visible": cap.visible,
         "score": float(new.score),
         "extra": new.extra,

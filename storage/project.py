@@ -163,7 +163,6 @@ def _enter_names(url: str, *, name: str) -> None:
         if connection.execute(select(schema.project.c.id)).first():
             raise StoreError(f"The database of {name} holds a project already; give an empty one.")
         connection.execute(insert(schema.project).values(id=uuid4().hex, name=name, made_at=now()))
-        connection.execute(insert(schema.category).values(name="mushroom", extra={}))
     engine.dispose()
 
 

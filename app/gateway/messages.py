@@ -16,7 +16,7 @@ class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unk
     """Base of everything a browser may send."""
 
 
-class Hello(FromEditor, tag="hello"):
+class Hello(FromEditor, frozen=True, tag="hello"):
     """First message: the one-time token viser put into this tab's page, and the image to come back to."""
 
     token: str
@@ -24,26 +24,26 @@ class Hello(FromEditor, tag="hello"):
     """Shown before the connection broke, else None: the server chooses."""
 
 
-class Open(FromEditor, tag="open"):
+class Open(FromEditor, frozen=True, tag="open"):
     """Show this image; ``select`` an annotation and bring it into view."""
 
     image: int
     select: str | None = None
 
 
-class Step(FromEditor, tag="step"):
+class Step(FromEditor, frozen=True, tag="step"):
     """Show the next (+1) or previous (-1) image of the list as filtered."""
 
     by: Literal[-1, 1]
 
 
-class Edits(FromEditor, tag="edits"):
+class Edits(FromEditor, frozen=True, tag="edits"):
     """One change set, stored in one transaction; each edit gets an outcome of its own."""
 
     edits: list[Edit]
 
 
-class Refit(FromEditor, tag="refit"):
+class Refit(FromEditor, frozen=True, tag="refit"):
     """Asks for the whole outline of a cap while it is dragged. Only the latest is answered."""
 
     seq: int
@@ -52,27 +52,27 @@ class Refit(FromEditor, tag="refit"):
     cap: Cap
 
 
-class Select(FromEditor, tag="select"):
+class Select(FromEditor, frozen=True, tag="select"):
     """What is selected now, for the inspector."""
 
     annotation: str | None = None
     prediction: int | None = None
 
 
-class SetStatus(FromEditor, tag="status"):
+class SetStatus(FromEditor, frozen=True, tag="status"):
     """Says that an image is new, annotated or approved."""
 
     image: int
     status: Status
 
 
-class Saving(FromEditor, tag="saving"):
+class Saving(FromEditor, frozen=True, tag="saving"):
     """How many edits of this tab wait for their acknowledgement, for the status line."""
 
     waiting: int
 
 
-class Toggle(FromEditor, tag="toggle"):
+class Toggle(FromEditor, frozen=True, tag="toggle"):
     """A key showed or hid a layer; the panel follows and answers with `Layers`."""
 
     layer: str
@@ -85,7 +85,7 @@ class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
     """Base of everything the server may send."""
 
 
-class Welcome(FromServer, tag="welcome"):
+class Welcome(FromServer, frozen=True, tag="welcome"):
     """Answers Hello."""
 
     user: str
@@ -93,7 +93,7 @@ class Welcome(FromServer, tag="welcome"):
     """A stable id: the browser keys its outbox by it."""
 
 
-class Show(FromServer, tag="show"):
+class Show(FromServer, frozen=True, tag="show"):
     """Show this image."""
 
     document: Document
@@ -107,13 +107,13 @@ class Show(FromServer, tag="show"):
     """URLs of the photos likely to be shown next, fetched in advance."""
 
 
-class Outcomes(FromServer, tag="outcomes"):
+class Outcomes(FromServer, frozen=True, tag="outcomes"):
     """What became of edits this tab sent."""
 
     outcomes: list[Outcome]
 
 
-class Changed(FromServer, tag="changed"):
+class Changed(FromServer, frozen=True, tag="changed"):
     """Somebody else (or a job) changed annotations of the image on screen."""
 
     image: int
@@ -121,7 +121,7 @@ class Changed(FromServer, tag="changed"):
     user: str
 
 
-class Fit(FromServer, tag="fit"):
+class Fit(FromServer, frozen=True, tag="fit"):
     """Answers Refit."""
 
     seq: int
@@ -132,7 +132,7 @@ class Fit(FromServer, tag="fit"):
     """How the fit came about, for the inspector; or why there is none."""
 
 
-class Layers(FromServer, tag="layers"):
+class Layers(FromServer, frozen=True, tag="layers"):
     """What the panel says is drawn, and how the photo looks."""
 
     visible: dict[str, bool]
@@ -141,13 +141,13 @@ class Layers(FromServer, tag="layers"):
     contrast: float = 1.0
 
 
-class Command(FromServer, tag="command"):
-    """A panel button that the editor carries out: undo, redo, fit, delete, accept, accept_all, help, a tool's name …"""
+class Command(FromServer, frozen=True, tag="command"):
+    """A panel button that the editor carries out: undo, fit, delete, accept_all, help, a tool's name …"""
 
     name: str
 
 
-class Notice(FromServer, tag="notice"):
+class Notice(FromServer, frozen=True, tag="notice"):
     """A sentence for the person at this tab."""
 
     text: str

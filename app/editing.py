@@ -1,0 +1,76 @@
+"""Edits on their way from a tab to the disk and to the other tabs, and refits while a cap is dragged."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Sequence
+
+import anyio.to_thread
+
+from app.derive import derive_edits, refit
+from app.gateway.messages import Changed, Outcomes, Refit
+from app.session import Session
+from app.workspace import Workspace
+from storage.journal import commit
+from storage.records import Accepted, Conflict, Edit, Outcome
+
+log = logging.getLogger(__name__)
+
+
+async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
+    """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
+    outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.user)
+    session.send(Outcomes(outcomes=outcomes))
+    accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
+    session.take_in(accepted)
+    session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
+    for image_id in {annotation.image for annotation in accepted}:
+        workspace.reviewer.touch(image_id)
+        changed = [annotation for annotation in accepted if annotation.image == image_id]
+        for tab in workspace.tabs.others_on(image_id, besides=session):
+            tab.take_in(changed)
+            tab.send(Changed(image=image_id, annotations=changed, user=session.user))
+            tab.refresh("cap")
+    session.refresh("cap", "status")
+    if accepted:
+        workspace.refresh("images")
+
+
+def _store(workspace: Workspace, edits: Sequence[Edit], user: str) -> list[Outcome]:
+    return commit(workspace.project, derive_edits(workspace.project, edits), user=user)
+
+
+class Refits:
+    """The refits of one tab: one at a time, and of those that wait only the latest."""
+
+    def __init__(self, workspace: Workspace, session: Session) -> None:
+        self._workspace = workspace
+        self._session = session
+        self._latest: Refit | None = None
+        self._task: asyncio.Task[None] | None = None
+
+    def ask(self, request: Refit) -> None:
+        """Takes the place of a request that has not been begun."""
+        self._latest = request
+        if self._task is None:
+            self._task = asyncio.create_task(self._run())
+
+    def close(self) -> None:
+        """Begins no more."""
+        self._latest = None
+
+    async def _run(self) -> None:
+        try:
+            while (request := self._latest) is not None:
+                self._latest = None
+                document = self._session.document
+                if document is None or document.image.id != request.image:
+                    continue
+                annotations = dict(self._session.annotations)
+                fit = await anyio.to_thread.run_sync(refit, document, annotations, request)
+                self._session.send(fit)
+        except Exception:
+            log.exception("A refit failed.")
+        finally:
+            self._task = None

@@ -1,0 +1,123 @@
+"""Photos for the browser: upright, 8 bits, as they are where possible, converted and kept where not."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from pathlib import Path
+
+import anyio
+import anyio.to_thread
+import cv2
+import PIL.Image
+from starlette.requests import Request
+from starlette.responses import FileResponse, PlainTextResponse, Response
+
+from app.gateway.names import name_of
+from model import photo
+from model.errors import FairyringError
+from storage.errors import StoreError
+from storage.images import get_image
+from storage.project import Project
+from storage.records import Image
+
+FOR_EVER = "private, max-age=31536000, immutable"
+WIDTHS = (160, 500, 1000, 2000, 4000)
+"""Widths a photo is scaled down to; others are rounded up, so that the cache cannot be flooded."""
+DIRECT_FORMATS = frozenset({"JPEG", "PNG", "WEBP"})
+DIRECT_MODES = frozenset({"1", "L", "P", "RGB", "RGBA"})
+EXIF_ORIENTATION = 0x0112
+QUALITY_FULL, QUALITY_SCALED = 95, 88
+
+
+def url_of_photo(image: Image) -> str:
+    """Where the browser finds the photo; another content has another URL."""
+    return f"/photos/{image.id}/{image.sha256[:16]}"
+
+
+def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awaitable[Response]]:
+    """The endpoint ``/photos/{image}/{sha}[?w=width]``; ``cache_limit`` in bytes."""
+    cache = project.folder / "cache" / "photos"
+    decoding = anyio.CapacityLimiter(2)
+
+    async def photos(request: Request) -> Response:
+        if name_of(request) is None:
+            return PlainTextResponse("Open the page first and say your name.", status_code=401)
+        image = await anyio.to_thread.run_sync(_image_at, project, request.path_params["image"])
+        if image is None or request.path_params["sha"] != image.sha256[:16]:
+            return PlainTextResponse("There is no such photo in this project.", status_code=404)
+        width = _width_wanted(request.query_params.get("w"), image)
+        try:
+            file = await anyio.to_thread.run_sync(
+                _file_for, project, image, width, cache, cache_limit, limiter=decoding
+            )
+        except FairyringError as error:
+            return PlainTextResponse(str(error), status_code=404)
+        return FileResponse(file, headers={"Cache-Control": FOR_EVER})
+
+    return photos
+
+
+def _image_at(project: Project, image_id: int) -> Image | None:
+    with project.read() as connection, suppress(StoreError):
+        return get_image(connection, image_id)
+    return None
+
+
+def _width_wanted(asked: str | None, image: Image) -> int | None:
+    """A width of WIDTHS, or None for the photo at its full size."""
+    if asked is None or not (asked.isascii() and asked.isdigit()) or len(asked) > 6:
+        return None
+    return next((width for width in WIDTHS if int(asked) <= width < image.width), None)
+
+
+def _file_for(project: Project, image: Image, width: int | None, cache: Path, cache_limit: int) -> Path:
+    """The file to send. Raises FairyringError where the photo is gone or cannot be read."""
+    source = project.folder / image.path
+    if not source.is_file():
+        raise FairyringError(f"{source} is gone; put the photo back where it was.")
+    if width is None and is_directly_showable(source):
+        return source
+    made = cache / f"{image.sha256}-{width or 'full'}.jpg"
+    if not made.is_file():
+        _convert(source, made, image=image, width=width)
+        _make_room(cache, cache_limit)
+    return made
+
+
+def is_directly_showable(source: Path) -> bool:
+    """Whether every browser shows this file itself just as it is decoded here: upright, 8 bits, no CMYK."""
+    try:
+        with PIL.Image.open(source) as opened:
+            upright = opened.getexif().get(EXIF_ORIENTATION, 1) == 1
+            return upright and opened.format in DIRECT_FORMATS and opened.mode in DIRECT_MODES
+    except (OSError, ValueError, PIL.Image.DecompressionBombError):
+        return False
+
+
+def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> None:
+    if width is None:
+        pixels, quality = photo.read(source), QUALITY_FULL
+    else:
+        height = max(round(image.height * width / image.width), 1)
+        pixels = photo.read(source, longest=max(width, height))
+        if pixels.shape[:2] != (height, width):
+            pixels = cv2.resize(pixels, (width, height), interpolation=cv2.INTER_AREA)
+        quality = QUALITY_SCALED
+    _, encoded = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, quality])
+    made.parent.mkdir(parents=True, exist_ok=True)
+    partial = made.with_suffix(f".{os.getpid()}-{os.urandom(4).hex()}")
+    partial.write_bytes(encoded.tobytes())
+    partial.replace(made)
+
+
+def _make_room(cache: Path, limit: int) -> None:
+    """Drops the photos longest unused until the cache fits, and at least the newest stays."""
+    files = sorted(((f.stat(), f) for f in cache.glob("*.jpg")), key=lambda entry: entry[0].st_atime)
+    total = sum(stat.st_size for stat, _ in files)
+    for stat, file in files[:-1]:
+        if total <= limit:
+            return
+        file.unlink(missing_ok=True)
+        total -= stat.st_size

@@ -1,0 +1,200 @@
+"""One command, one port: viser hidden on a free port of 127.0.0.1, the gateway in front of it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import io
+import logging
+import socket
+import webbrowser
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import TypeVar
+
+import uvicorn
+import viser
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.routing import Mount, Route, WebSocketRoute
+
+from app.gateway.downloads import downloads_of
+from app.gateway.editor import editor_of
+from app.gateway.files import EditorFiles
+from app.gateway.guard import LOOPBACK, Guard
+from app.gateway.names import name_page
+from app.gateway.photos import photos_of
+from app.gateway.relay import relay_to
+from app.gateway.shell import load_shell, shell_page
+from app.settings import Settings, load_settings
+from app.workspace import Workspace
+from model.errors import FairyringError
+from storage.project import open_project
+
+log = logging.getLogger(__name__)
+
+Result = TypeVar("Result")
+GREEN = (47, 111, 79)
+PANEL_WIDTH = 380
+"""Pixels."""
+LARGEST_FRAME = 64 * 2**20
+"""Bytes of one WebSocket frame from a browser; viser itself takes 50 MiB."""
+CLOSING_WITHIN_S = 3
+
+
+class ServerError(FairyringError):
+    """The server cannot be started as asked."""
+
+
+def serve(
+    project_folder: Path,
+    *,
+    settings: Settings | None = None,
+    open_browser: bool = False,
+    ready: Callable[[str], None] | None = None,
+) -> None:
+    """Serves a project until SIGINT or SIGTERM, then closes everything.
+
+    ``ready`` is called with the address once the server answers. Raises ServerError for an address that may
+    not be listened on or a port that is taken, and whatever open_project raises; before anything is started.
+    """
+    settings = settings or load_settings(project_folder)
+    load_shell()
+    with contextlib.closing(_listen(settings)) as listening, open_project(project_folder) as project:
+        workspace = Workspace(project, settings)
+        address = f"http://{_shown_host(settings.host)}:{listening.getsockname()[1]}"
+
+        def announce() -> None:
+            log.info("%s is served at %s", project.name, address)
+            if ready is not None:
+                ready(address)
+            if open_browser:
+                webbrowser.open(address)
+
+        server = _Server(_configure(make_app(workspace)), announce)
+        server.run(sockets=[listening])
+
+
+def make_app(workspace: Workspace) -> Starlette:
+    """The ASGI application of a project; starts viser with its lifespan and stops it with it."""
+    viser_port = _free_port()
+
+    @asynccontextmanager
+    async def lifespan(_app: Starlette) -> AsyncIterator[None]:
+        panels = await asyncio.to_thread(_start_viser, viser_port, workspace.project.name)
+        _greet(panels, workspace, asyncio.get_running_loop())
+        try:
+            yield
+        finally:
+            await workspace.close()
+            await asyncio.to_thread(_quietly, panels.stop)
+
+    cache_limit = workspace.settings.photo_cache_mb * 2**20
+    return Starlette(
+        routes=[
+            Route("/", shell_page),
+            WebSocketRoute("/", relay_to(viser_port)),
+            WebSocketRoute("/editor", editor_of(workspace)),
+            Route("/name", name_page, methods=["GET", "POST"]),
+            Route("/photos/{image:int}/{sha}", photos_of(workspace.project, cache_limit=cache_limit)),
+            Route("/downloads/{name}", downloads_of(workspace.project)),
+            Route("/healthz", _healthz),
+            Mount("/static", EditorFiles()),
+        ],
+        middleware=[Middleware(Guard)],
+        lifespan=lifespan,
+    )
+
+
+def _listen(settings: Settings) -> socket.socket:
+    if settings.host not in LOOPBACK:
+        raise ServerError(
+            f"Fairyring has no accounts yet, so it listens on this machine alone; give --host 127.0.0.1, not "
+            f"{settings.host} (from elsewhere, forward the port with ssh -L)."
+        )
+    family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
+    listening = socket.socket(family, socket.SOCK_STREAM)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((settings.host, settings.port))
+        listening.listen(128)
+    except OSError as error:
+        listening.close()
+        raise ServerError(
+            f"Port {settings.port} of {settings.host} cannot be listened on ({error.strerror}); "
+            f"stop what uses it, or give another with --port."
+        ) from None
+    return listening
+
+
+def _shown_host(host: str) -> str:
+    return f"[{host}]" if ":" in host else "localhost" if host == "127.0.0.1" else host
+
+
+def _configure(app: Starlette) -> uvicorn.Config:
+    return uvicorn.Config(
+        app,
+        log_config=None,
+        access_log=False,
+        server_header=False,
+        ws="websockets-sansio",
+        ws_max_size=LARGEST_FRAME,
+        ws_per_message_deflate=False,
+        timeout_graceful_shutdown=CLOSING_WITHIN_S,
+    )
+
+
+class _Server(uvicorn.Server):
+    """uvicorn's server, saying when it answers."""
+
+    def __init__(self, config: uvicorn.Config, announce: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._announce = announce
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._announce()
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def _start_viser(port: int, project_name: str) -> viser.ViserServer:
+    """viser on 127.0.0.1, not a word on stdout. Raises ServerError where it ends up on another port."""
+    panels = _quietly(lambda: viser.ViserServer("127.0.0.1", port, label=project_name, verbose=False))
+    if panels.get_port() != port:
+        panels.stop()
+        raise ServerError("The port found for the panels was taken meanwhile; start again.")
+    panels.scene.world_axes.visible = False
+    panels.gui.configure_theme(show_logo=False, show_share_button=False, brand_color=GREEN)
+    panels.gui.main_panel.dock_right()
+    panels.gui.main_panel.set_width(PANEL_WIDTH)
+    return panels
+
+
+def _quietly(call: Callable[[], Result]) -> Result:
+    with contextlib.redirect_stdout(io.StringIO()):
+        return call()
+
+
+def _greet(panels: viser.ViserServer, workspace: Workspace, loop: asyncio.AbstractEventLoop) -> None:
+    """Hands viser's clients over to the gateway's loop, where all tabs live."""
+
+    @panels.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        loop.call_soon_threadsafe(workspace.tabs.arrive, client)
+
+    @panels.on_client_disconnect
+    async def _(client: viser.ClientHandle) -> None:
+        loop.call_soon_threadsafe(workspace.tabs.leave, client)
+
+
+async def _healthz(_request: Request) -> Response:
+    return PlainTextResponse("ok")

@@ -1,0 +1,120 @@
+"""Long work off the event loop: in a thread, with progress, cancel, a result or an error as a sentence."""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import logging
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+import anyio
+import anyio.to_thread
+
+from model.errors import FairyringError
+
+log = logging.getLogger(__name__)
+
+State = Literal["running", "done", "failed", "cancelled"]
+Progress = Callable[[int, int, str], None]
+"""Called with (done, total, what is being done); raises CancelledError once the job is to stop."""
+
+KEPT = 12
+"""Finished jobs that stay listed."""
+UNEXPECTED = "This stopped because of an error in Fairyring itself; the server's log says more."
+
+
+class CancelledError(Exception):
+    """Raised inside a job's work by its progress callback, so that the work unwinds."""
+
+
+@dataclass(eq=False, kw_only=True)
+class Job:
+    """One piece of long work, as the panel shows it."""
+
+    id: int
+    title: str
+    user: str
+    state: State = "running"
+    done: int = 0
+    total: int = 0
+    what: str = ""
+    message: str = ""
+    """The result, or why there is none, in a sentence."""
+    link: str = ""
+    """Where the browser can fetch what the job made."""
+    stop: threading.Event = field(default_factory=threading.Event)
+
+    def cancel(self) -> None:
+        """Asks the work to stop at its next step."""
+        self.stop.set()
+
+    def report(self, done: int, total: int, what: str) -> None:
+        """The progress callback handed to the work; called from its thread."""
+        if self.stop.is_set():
+            raise CancelledError
+        self.done, self.total, self.what = done, total, what
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a job hands back."""
+
+    message: str
+    link: str = ""
+
+
+class Jobs:
+    """The jobs of a served project, newest first. Used on the gateway's event loop only."""
+
+    def __init__(self, *, at_once: int = 1) -> None:
+        self._jobs: list[Job] = []
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._ids = itertools.count(1)
+        self._places = anyio.CapacityLimiter(at_once)
+
+    def __iter__(self) -> Iterator[Job]:
+        return iter(tuple(self._jobs))
+
+    @property
+    def running(self) -> bool:
+        """Whether any job is still at work."""
+        return any(job.state == "running" for job in self._jobs)
+
+    def start(
+        self, title: str, work: Callable[[Progress], Result], *, user: str, finished: Callable[[Job], None]
+    ) -> Job:
+        """Runs ``work`` in a thread; ``finished`` is called on the event loop when it has ended."""
+        job = Job(id=next(self._ids), title=title, user=user)
+        self._jobs = [job, *self._jobs][: KEPT + sum(j.state == "running" for j in self._jobs)]
+        task = asyncio.create_task(self._run(job, work, finished))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return job
+
+    def find(self, job_id: int) -> Job | None:
+        """The job of this number, while it is listed."""
+        return next((job for job in self._jobs if job.id == job_id), None)
+
+    async def close(self) -> None:
+        """Cancels what is running and waits for it to unwind."""
+        for job in self._jobs:
+            job.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    async def _run(
+        self, job: Job, work: Callable[[Progress], Result], finished: Callable[[Job], None]
+    ) -> None:
+        try:
+            result = await anyio.to_thread.run_sync(work, job.report, limiter=self._places)
+            job.state, job.message, job.link = "done", result.message, result.link
+        except CancelledError:
+            job.state, job.message = "cancelled", "Cancelled; what was done so far is kept."
+        except FairyringError as error:
+            job.state, job.message = "failed", str(error)
+        except Exception:
+            log.exception("The job %r failed.", job.title)
+            job.state, job.message = "failed", UNEXPECTED
+        finished(job)

@@ -1,0 +1,96 @@
+"""Showing images: the one asked for, the next of the list, the one to come back to; and their status."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+from sqlalchemy import Connection
+
+from app.gateway.messages import Show
+from app.gateway.photos import url_of_photo
+from app.session import Selection, Session
+from app.workspace import Workspace
+from storage import images
+from storage.documents import load_document
+from storage.errors import StoreError
+from storage.images import Place
+from storage.records import Document, Status
+
+CHANGES_IMAGE = ("status", "images", "cap", "review")
+"""The parts of the panel that depend on the image on screen."""
+
+
+async def open_image(
+    workspace: Workspace, session: Session, image_id: int, *, select: str | None = None
+) -> None:
+    """Shows an image in a tab. Raises StoreError where the project has no such image."""
+    wanted = session.filter
+
+    def query(connection: Connection) -> tuple[Document, Place, list[str]]:
+        place = images.place_in_list(connection, wanted, image_id)
+        near = [images.get_image(connection, i) for i in (place.next, place.previous) if i is not None]
+        return load_document(connection, image_id), place, [url_of_photo(image) for image in near]
+
+    document, place, ahead = await workspace.read(query)
+    session.document = document
+    session.annotations = {annotation.uid: annotation for annotation in document.annotations}
+    session.position, session.count = place.position, place.count
+    session.selection = Selection(annotation=select)
+    session.send(
+        Show(
+            document=document,
+            photo=url_of_photo(document.image),
+            select=select,
+            position=session.position,
+            count=session.count,
+            ahead=ahead,
+        )
+    )
+    session.refresh(*CHANGES_IMAGE)
+
+
+async def reopen(workspace: Workspace, session: Session, image_id: int | None) -> None:
+    """Shows the image a tab had on screen before its connection broke, else the first of the list."""
+
+    if image_id is not None:
+        try:
+            await open_image(workspace, session, image_id)
+            return
+        except StoreError as gone:
+            session.notify(str(gone), "warning")
+    first = await workspace.read(
+        lambda connection: images.list_images(connection, session.filter, limit=1).rows
+    )
+    if first:
+        await open_image(workspace, session, first[0].image.id)
+    else:
+        session.notify("This project has no images yet: fairyring import takes them in.")
+        session.refresh(*CHANGES_IMAGE)
+
+
+async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> None:
+    """Shows the next or the previous image of the list as filtered."""
+    if session.image is None:
+        await reopen(workspace, session, None)
+        return
+    here = session.image.id
+    place = await workspace.read(lambda connection: images.place_in_list(connection, session.filter, here))
+    target = place.next if by == 1 else place.previous
+    if target is None:
+        session.notify(
+            "This is the last image of the list." if by == 1 else "This is the first image of the list."
+        )
+    else:
+        await open_image(workspace, session, target)
+
+
+async def set_status(workspace: Workspace, session: Session, image_id: int, status: Status) -> None:
+    """Says that an image is new, annotated or approved; every tab that shows it or lists it follows."""
+    image = await workspace.write(
+        lambda connection: images.set_status(connection, image_id, status, user=session.user)
+    )
+    for tab in workspace.tabs:
+        if tab.document is not None and tab.shows(image_id):
+            tab.document = msgspec.structs.replace(tab.document, image=image)
+        tab.refresh("status", "images")

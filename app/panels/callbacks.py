@@ -1,0 +1,72 @@
+"""From viser's event loop to the gateway's, where tabs live."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable, Coroutine
+from typing import Any
+
+import viser
+
+from app.session import Session
+from model.errors import FairyringError
+
+log = logging.getLogger(__name__)
+
+Redraw = Callable[[], Awaitable[None]]
+"""Draws one part of a panel anew."""
+Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
+
+
+def person_did(session: Session, work: Callable[[], Awaitable[None]]) -> Callback:
+    """A viser callback that runs ``work`` on the gateway's loop, in the order in which things were done.
+
+    Values set by the server itself do not count. What goes wrong is said to the person at the tab.
+    """
+    loop = asyncio.get_running_loop()
+
+    async def callback(event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:
+            asyncio.run_coroutine_threadsafe(_reported(session, work), loop)
+
+    return callback
+
+
+async def _reported(session: Session, work: Callable[[], Awaitable[None]]) -> None:
+    try:
+        await work()
+    except FairyringError as error:
+        session.notify(str(error), "error")
+    except Exception:
+        log.exception("Something in the panel of %s failed.", session.user)
+        session.notify(
+            "That did not work because of an error in Fairyring; the server's log says more.", "error"
+        )
+
+
+class Redrawing:
+    """Draws the parts of one tab's panel: soon, one at a time, and each only as often as it pays."""
+
+    def __init__(self, parts: dict[str, Redraw]) -> None:
+        self._parts = parts
+        self._wanted: set[str] = set()
+        self._task: asyncio.Task[None] | None = None
+
+    def ask(self, parts: tuple[str, ...]) -> None:
+        """Marks parts as out of date."""
+        self._wanted.update(part for part in parts if part in self._parts)
+        if self._task is None and self._wanted:
+            self._task = asyncio.create_task(self._draw())
+
+    async def _draw(self) -> None:
+        try:
+            while self._wanted:
+                part = next(name for name in self._parts if name in self._wanted)
+                self._wanted.discard(part)
+                try:
+                    await self._parts[part]()
+                except Exception:
+                    log.exception("The panel part %r could not be drawn.", part)
+        finally:
+            self._task = None

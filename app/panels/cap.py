@@ -1,0 +1,210 @@
+"""The inspector: everything known about the selected cap, or a summary of the image."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from sqlalchemy import Connection
+
+from app.derive import Whole, outlines_of, whole_of
+from app.panels.callbacks import Redraw
+from app.panels.icons import icon
+from app.panels.markup import EMPTY, Content, Markup, element
+from app.panels.status import run_badge
+from app.review import compare_cap
+from app.session import Session
+from app.workspace import Workspace
+from model.evaluate import Pair
+from model.geometry import Circle, Polygon
+from storage.documents import load_prediction, load_predictions, load_run
+from storage.journal import Entry, history
+from storage.records import Annotation, Mark, Prediction, Run, Shape
+
+COMMANDS = {
+    "accept": "Accept this prediction (A)",
+    "mark": "Take the outline as mark, or clear the mark (M)",
+    "doubtful": "Doubtful: a careful person could disagree (D)",
+    "ignored": "Ignored: counts neither way (I)",
+    "delete": "Delete (Del)",
+}
+Facts = list[tuple[str, Content]]
+
+
+@dataclass(frozen=True)
+class Background:
+    """What the store and the contour methods say about an annotation."""
+
+    entries: Sequence[Entry]
+    prediction: Prediction | None
+    run: Run | None
+    whole: Whole
+    pair: Pair | None
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """The inspector."""
+    shown = session.client.gui.add_html("")
+
+    async def redraw() -> None:
+        shown.content = (await _inspect(workspace, session)).html
+
+    return redraw
+
+
+async def _inspect(workspace: Workspace, session: Session) -> Markup:
+    document, selection = session.document, session.selection
+    if document is None:
+        return EMPTY
+    annotation = session.annotations.get(selection.annotation or "")
+    if annotation is not None and not annotation.deleted:
+        return annotation_facts(annotation, await _background(workspace, session, annotation))
+    for prediction in document.predictions:
+        if prediction.id == selection.prediction:
+            return prediction_facts(prediction, document.run)
+    return summary(session)
+
+
+async def _background(workspace: Workspace, session: Session, annotation: Annotation) -> Background:
+    cap, document = annotation.cap, session.document
+    assert document is not None
+
+    annotations = dict(session.annotations)
+
+    def gather(connection: Connection) -> Background:
+        prediction = load_prediction(connection, cap.prediction) if cap.prediction is not None else None
+        run = load_run(connection, prediction.run) if prediction else None
+        predictions = load_predictions(connection, document.image.id)
+        around = outlines_of(document, annotations)
+        around.pop(annotation.uid, None)
+        return Background(
+            entries=history(connection, annotation.uid),
+            prediction=prediction,
+            run=run,
+            whole=whole_of(cap.visible, cap.mark, image=document.image, around=around),
+            pair=compare_cap(document.image, annotations, predictions, annotation.uid),
+        )
+
+    return await workspace.read(gather)
+
+
+def annotation_facts(annotation: Annotation, background: Background) -> Markup:
+    """An annotation's inspector."""
+    cap = annotation.cap
+    flags = [
+        element("span", word, class_="fr-badge fr-warn")
+        for word, raised in (("ignored", cap.ignored), ("doubtful", cap.doubtful))
+        if raised
+    ]
+    order = "not set" if cap.order is None else f"{cap.order} (higher lies in front)"
+    facts: Facts = [
+        ("Centre", _point(annotation.centre)),
+        ("Whole", _shape(annotation.whole)),
+        ("Fit", background.whole.note),
+        ("Mark", _mark(cap.mark)),
+        *_error_facts(background.pair),
+        ("Overlap", order),
+        ("From", _origin(background)),
+        ("Edited", _last_edit(annotation, background.entries)),
+    ]
+    title = element("strong", f"Cap {annotation.uid[:8]}", title=annotation.uid)
+    return _inspector(title, *flags, facts=facts, commands=("mark", "doubtful", "ignored", "delete"))
+
+
+def _error_facts(pair: Pair | None) -> Facts:
+    if pair is None:
+        return [("Prediction", "none matches this cap")]
+    if pair.error is None:
+        return [("CDR", "mark the cap to measure its prediction")]
+    error = pair.error
+    signed = f"Δx {error.dx:+.2f}, Δy {error.dy:+.2f} px"
+    share = "" if error.relative is None else f", {100 * error.relative:.2f} % of the diameter"
+    return [
+        ("CDR", element("span", f"{error.cdr:.3f} %", class_="fr-figure", title=signed)),
+        ("Error", f"{error.px:.2f} px{share}"),
+    ]
+
+
+def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
+    """A prediction's inspector."""
+    facts: Facts = [
+        ("Centre", _point(prediction.centre)),
+        ("Whole", _shape(prediction.whole)),
+        ("Score", f"{prediction.score:.3f}"),
+        ("Run", run_badge(run) if run else "unknown"),
+    ]
+    return _inspector(
+        element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete")
+    )
+
+
+def summary(session: Session) -> Markup:
+    """What the image on screen holds, while nothing is selected."""
+    assert session.document is not None
+    live = [a for a in session.annotations.values() if not a.deleted]
+    touched = {a.cap.prediction for a in session.annotations.values()}
+    waiting = sum(p.id not in touched for p in session.document.predictions)
+    facts: Facts = [
+        ("Caps", f"{len(live)}, {sum(a.cap.mark is not None for a in live)} marked"),
+        ("Predictions", f"{waiting} not looked at" if waiting else "all looked at"),
+    ]
+    return _inspector(element("span", "Nothing selected", class_="fr-quiet"), facts=facts)
+
+
+def _inspector(*title: Markup, facts: Facts, commands: tuple[str, ...] = ()) -> Markup:
+    buttons = [
+        element(
+            "button",
+            icon(name),
+            type="button",
+            title=COMMANDS[name],
+            aria_label=COMMANDS[name],
+            data_fairyring_command=name,
+        )
+        for name in commands
+    ]
+    rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
+    return element(
+        "section",
+        element("div", *title, element("span", *buttons, class_="fr-actions"), class_="fr-line"),
+        element("dl", *rows),
+        class_="fr-cap",
+        aria_label="Selected cap",
+    )
+
+
+def _point(point: tuple[float, float] | None) -> str:
+    return "not known" if point is None else f"{point[0]:.2f}, {point[1]:.2f} px"
+
+
+def _shape(shape: Shape | None) -> str:
+    if shape is None:
+        return "not known"
+    if isinstance(shape, Circle):
+        return f"circle ⌀ {2 * shape.r:.1f} px"
+    return f"ellipse {2 * shape.a:.1f} × {2 * shape.b:.1f} px at {shape.theta_deg:.0f}°"
+
+
+def _mark(mark: Mark | None) -> str:
+    if mark is None:
+        return "none: the fit gives the centre"
+    if isinstance(mark, Circle):
+        return f"circle ⌀ {2 * mark.r:.1f} px"
+    return f"polygon of {len(mark.points) // 2} points" if isinstance(mark, Polygon) else "ellipse"
+
+
+def _origin(background: Background) -> Content:
+    prediction = background.prediction
+    if prediction is None:
+        return (
+            "imported" if background.entries and background.entries[0].user == "import" else "drawn by hand"
+        )
+    badge = run_badge(background.run) if background.run else "a prediction"
+    return element("span", badge, f" score {prediction.score:.2f}")
+
+
+def _last_edit(annotation: Annotation, entries: Sequence[Entry]) -> str:
+    if not entries:
+        return f"revision {annotation.revision}"
+    last = entries[-1]
+    return f"{last.user}, {last.made_at[:16].replace('T', ' ')} UTC, revision {last.revision}"

@@ -1,0 +1,34 @@
+"""Line icons of 24 × 24 for the toolbar, drawn in the text's colour."""
+
+from __future__ import annotations
+
+from app.panels.markup import Markup
+
+_PATHS = {
+    "select": "M5 3l14 8-6 1.6L10 19z",
+    "polygon": "M12 4l8 6-3 9H7l-3-9zM12 4v.01M20 10v.01M17 19v.01M7 19v.01M4 10v.01",
+    "circle": "M12 4a8 8 0 100 16 8 8 0 000-16zM12 11v2M11 12h2",
+    "pan": "M12 3v18M3 12h18M12 3l-2.5 2.5M12 3l2.5 2.5M12 21l-2.5-2.5M12 21l2.5-2.5M3 12l2.5-2.5"
+    "M3 12l2.5 2.5M21 12l-2.5-2.5M21 12l-2.5 2.5",
+    "undo": "M9 6L4 11l5 5M4 11h10a6 6 0 010 12",
+    "redo": "M15 6l5 5-5 5M20 11H10a6 6 0 000 12",
+    "fit": "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
+    "accept_all": "M2 13l4 4 8-9M10 16l1 1 9-10",
+    "accept": "M4 13l5 5L20 6",
+    "delete": "M5 7h14M10 4h4M7 7l1 13h8l1-13M10 11v5M14 11v5",
+    "done": "M4 5v14M8 12h11M14 7l5 5-5 5",
+    "mark": "M12 4a8 8 0 100 16 8 8 0 000-16zM12 9v6M9 12h6",
+    "doubtful": "M9 9a3 3 0 115 2c-1.2.8-2 1.4-2 3M12 18v.01",
+    "ignored": "M4 4l16 16M12 6c5 0 8 6 8 6s-1 2-3 4M6 8c-1.500 1.500-2 4-2 4s3 6 8 6",
+    "help": "M9 9a3 3 0 115 2c-1.2.8-2 1.4-2 3M12 18v.01",
+    "previous": "M15 5l-7 7 7 7",
+    "next": "M9 5l7 7-7 7",
+}
+
+
+def icon(name: str) -> Markup:
+    """The icon of this name as SVG. Raises KeyError for one that is not drawn."""
+    return Markup(
+        '<svg class="fr-icon" viewBox="0 0 24 24" fill="none" stroke="currentColor" stroke-width="1.8" '
+        f'stroke-linecap="round" stroke-linejoin="round" aria-hidden="true"><path d="{_PATHS[name]}"/></svg>'
+    )

@@ -1,0 +1,137 @@
+"""The list of images: search, filters, order, a page at a time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.gateway.photos import url_of_photo
+from app.panels.callbacks import Redraw, person_did
+from app.panels.markup import Markup, element
+from app.panels.status import STATUS_WORDS
+from app.session import Session
+from app.workspace import Workspace
+from storage.images import ImageFilter, ImagePage, ImageRow, list_images, place_in_list
+
+PAGE = 12
+ANY = "any"
+STATUSES = {ANY: None, "not begun": "new", "annotated": "annotated", "approved": "approved"}
+LIGHTS = {ANY: None, "top": "top", "side": "side", "dark": "dark"}
+FORMS = {ANY: None} | {letter: letter for letter in "abcdefgh"}
+ORDERS = {
+    "name": ImageFilter(),
+    "name, Z first": ImageFilter(descending=True),
+    "newest first": ImageFilter(sort="added", descending=True),
+    "most caps first": ImageFilter(sort="caps", descending=True),
+    "worst CDR first": ImageFilter(sort="cdr", descending=True),
+}
+
+
+@dataclass
+class _Shown:
+    """Which page is shown, and the image it was last moved to."""
+
+    page: int = 0
+    image: int | None = None
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """The filters and the list. It turns to the page of the image on screen whenever that changes."""
+    gui, at = session.client.gui, _Shown()
+    search = gui.add_text("Search", "", hint="Part of a file name")
+    with gui.add_folder("Filter and order", expand_by_default=False):
+        status = gui.add_dropdown("Status", tuple(STATUSES))
+        light = gui.add_dropdown("Light", tuple(LIGHTS))
+        form = gui.add_dropdown("Form", tuple(FORMS))
+        order = gui.add_dropdown("Order", tuple(ORDERS))
+    shown = gui.add_html("")
+    pages = gui.add_button_group("Page", ("«", "‹", "›", "»"))
+
+    async def filter_changed() -> None:
+        ordered = ORDERS[order.value]
+        session.filter = ImageFilter(
+            search=search.value.strip(),
+            status=STATUSES[status.value],
+            light=LIGHTS[light.value],
+            form=FORMS[form.value],
+            sort=ordered.sort,
+            descending=ordered.descending,
+        )
+        at.page = 0
+        session.refresh("images", "status")
+
+    async def turn() -> None:
+        last = 10**9
+        at.page = {"«": 0, "‹": max(at.page - 1, 0), "›": at.page + 1, "»": last}[pages.value]
+        session.refresh("images")
+
+    async def redraw() -> None:
+        await _follow(workspace, session, at)
+        page = await _page(workspace, session, at)
+        shown.content = image_list(page, at.page, session.image.id if session.image else None).html
+
+    for control in (search, status, light, form, order):
+        control.on_update(person_did(session, filter_changed))
+    pages.on_click(person_did(session, turn))
+    return redraw
+
+
+async def _follow(workspace: Workspace, session: Session, at: _Shown) -> None:
+    if session.image is None:
+        return
+    here, which = session.image.id, session.filter
+    place = await workspace.read(lambda connection: place_in_list(connection, which, here))
+    session.position, session.count = place.position, place.count
+    session.refresh("status")
+    if here != at.image:
+        at.image, at.page = here, place.position // PAGE
+
+
+async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage:
+    """The page asked for, or the last there is."""
+    which, wanted = session.filter, at.page
+    count = (await workspace.read(lambda connection: list_images(connection, which, limit=0))).total
+    at.page = min(wanted, max(count - 1, 0) // PAGE)
+    offset = at.page * PAGE
+    return await workspace.read(lambda connection: list_images(connection, which, offset=offset, limit=PAGE))
+
+
+def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
+    """A page of the list; the row of the image on screen stands out."""
+    if not page.rows:
+        return element("div", "No image fits these filters.", class_="fr-images fr-quiet")
+    first = number * PAGE + 1
+    counted = f"{first}–{first + len(page.rows) - 1} of {page.total} images"
+    head = element(
+        "tr",
+        element("th", width=68),
+        element("th", "Image"),
+        element("th", "Caps", class_="fr-number", width=48),
+        element("th", "CDR %", class_="fr-number", width=52),
+    )
+    rows = (_row(row, current=row.image.id == current) for row in page.rows)
+    return element(
+        "div",
+        element("table", element("thead", head), element("tbody", *rows), class_="fr-list"),
+        element("div", counted, class_="fr-quiet"),
+        class_="fr-images",
+    )
+
+
+def _row(row: ImageRow, *, current: bool) -> Markup:
+    image = row.image
+    thumbnail = element("img", src=f"{url_of_photo(image)}?w=160", alt="", loading="lazy")
+    caps = element("span", row.caps, title=f"{row.ignored} ignored, {row.predicted} predicted")
+    name = element("span", image.file_name, class_="fr-ellipsis", title=image.file_name)
+    status = element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}")
+    facts = " · ".join(fact for fact in (image.light, image.form and f"form {image.form}") if fact)
+    return element(
+        "tr",
+        element("td", thumbnail),
+        element("td", name, element("div", status, " ", element("span", facts, class_="fr-quiet"))),
+        element("td", caps, class_="fr-number"),
+        element("td", "–" if row.cdr_mean is None else f"{row.cdr_mean:.2f}", class_="fr-number"),
+        data_fairyring_open=image.id,
+        aria_current="true" if current else None,
+        tabindex=0,
+        role="button",
+    )

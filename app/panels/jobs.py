@@ -1,0 +1,76 @@
+"""Long work: what runs, how far it is, and what came of it."""
+
+from __future__ import annotations
+
+import asyncio
+
+from app.exports import Only, export_work
+from app.jobs import Job
+from app.panels.callbacks import Redraw, person_did
+from app.panels.markup import Markup, element
+from app.review import compare_work
+from app.session import Session
+from app.workspace import Workspace
+
+EVERY_S = 0.5
+"""How often a running job's progress is drawn."""
+EXPORTS: dict[str, Only] = {
+    "Approved images": "approved",
+    "Annotated images": "annotated",
+    "Annotations, else predictions": "all",
+    "Predictions of the latest run": "predicted",
+}
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """Buttons that start jobs, and the list of them."""
+    gui = session.client.gui
+    what = gui.add_dropdown("Export", tuple(EXPORTS), initial_value="Annotated images")
+    export = gui.add_button("Export as COCO (zip)")
+    compare = gui.add_button("Compare every image with its predictions")
+    cancel = gui.add_button("Cancel what is running", visible=False)
+    shown = gui.add_html("")
+
+    async def start_export() -> None:
+        title = f"Export: {what.value.lower()}"
+        workspace.start_job(session, title, export_work(workspace.project, only=EXPORTS[what.value]))
+
+    async def start_comparison() -> None:
+        workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))
+
+    async def cancel_all() -> None:
+        for job in workspace.jobs:
+            job.cancel()
+
+    export.on_click(person_did(session, start_export))
+    compare.on_click(person_did(session, start_comparison))
+    cancel.on_click(person_did(session, cancel_all))
+
+    async def redraw() -> None:
+        shown.content = job_list(list(workspace.jobs)).html
+        cancel.visible = workspace.jobs.running
+        if workspace.jobs.running:
+            asyncio.get_running_loop().call_later(EVERY_S, session.refresh, "jobs")
+
+    return redraw
+
+
+def job_list(jobs: list[Job]) -> Markup:
+    """The list, newest first."""
+    if not jobs:
+        return element("div", "Nothing has run yet.", class_="fr-jobs fr-quiet")
+    return element("ul", *(_row(job) for job in jobs), class_="fr-jobs")
+
+
+def _row(job: Job) -> Markup:
+    head = element(
+        "div",
+        element("strong", job.title, class_="fr-ellipsis"),
+        element("span", job.state, class_=f"fr-badge fr-{job.state}"),
+        class_="fr-line",
+    )
+    if job.state == "running":
+        bar = element("progress", max=job.total or None, value=job.done if job.total else None)
+        return element("li", head, bar, element("div", job.what, class_="fr-quiet"))
+    link = element("a", "Download", href=job.link, download="") if job.link else None
+    return element("li", head, element("div", job.message, " ", link, class_="fr-quiet"))

@@ -1,0 +1,87 @@
+"""The top of the panel: which image, which run, and who. Whether all is saved, the editor itself says."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from app.panels.callbacks import Redraw
+from app.panels.icons import icon
+from app.panels.markup import Markup, element
+from app.session import Session
+from app.workspace import Workspace
+from storage.records import Run
+
+STATUS_WORDS = {"new": "not begun", "annotated": "annotated", "approved": "approved"}
+
+
+def build(_workspace: Workspace, session: Session) -> Redraw:
+    """The header."""
+    shown = session.client.gui.add_html("")
+
+    async def redraw() -> None:
+        shown.content = header(session).html
+
+    return redraw
+
+
+def header(session: Session) -> Markup:
+    """The header of a tab as it stands."""
+    return element(
+        "header",
+        element("div", *_image_line(session), class_="fr-line"),
+        element("div", *_person_line(session), class_="fr-line fr-quiet"),
+        class_="fr-header",
+    )
+
+
+def _image_line(session: Session) -> list[Markup]:
+    image = session.image
+    if image is None:
+        return [element("strong", "No image open")]
+    return [
+        step_button("previous", "Previous image (P)"),
+        element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
+        element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
+        element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
+        step_button("next", "Next image (N)"),
+    ]
+
+
+def _person_line(session: Session) -> list[Markup]:
+    run = session.document.run if session.document else None
+    waiting = f"{session.waiting} on their way" if session.waiting else None
+    return [
+        run_badge(run) if run else element("span", "no predictions"),
+        element(
+            "span",
+            waiting,
+            class_="fr-badge fr-warn" if waiting else None,
+            title="Edits not acknowledged yet",
+        ),
+        element(
+            "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
+        ),
+    ]
+
+
+def step_button(direction: Literal["previous", "next"], title: str) -> Markup:
+    """Goes to the image before or after this one."""
+    return element(
+        "button",
+        icon(direction),
+        type="button",
+        class_="fr-step",
+        title=title,
+        aria_label=title,
+        data_fairyring_command=f"{direction}_image",
+    )
+
+
+def run_badge(run: Run) -> Markup:
+    """A run's name; one that only imitates a network is called that plainly."""
+    if run.kind == "simulated":
+        warning = (
+            "These predictions are true masks distorted by a noise model; no network has seen the photo."
+        )
+        return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
+    return element("span", run.name, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")

@@ -1,0 +1,67 @@
+"""What a served project consists of, handed to everything that needs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeVar
+
+import anyio.to_thread
+from sqlalchemy import Connection
+
+from app.jobs import Job, Jobs, Progress, Result
+from app.review import Reviewer
+from app.session import Session, Tabs
+from app.settings import Settings
+from storage.project import Project
+
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """One project, open in any number of tabs."""
+
+    project: Project
+    settings: Settings
+    tabs: Tabs = field(default_factory=Tabs)
+    jobs: Jobs = field(default_factory=Jobs)
+
+    @cached_property
+    def reviewer(self) -> Reviewer:
+        """Compares images with their predictions after edits."""
+        return Reviewer(self.project, compared=lambda _image: self.refresh("review", "images"))
+
+    def refresh(self, *parts: str) -> None:
+        """Draws parts of every tab's panel anew."""
+        for tab in self.tabs:
+            tab.refresh(*parts)
+
+    def start_job(self, session: Session, title: str, work: Callable[[Progress], Result]) -> None:
+        """Starts long work for the person at a tab, who is told when it has ended."""
+
+        def finished(job: Job) -> None:
+            session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
+            self.refresh("jobs", "review", "images")
+
+        self.jobs.start(title, work, user=session.user, finished=finished)
+        self.refresh("jobs")
+
+    async def close(self) -> None:
+        """Stops what runs in the background."""
+        await self.jobs.close()
+        await self.reviewer.close()
+
+    async def read(self, query: Callable[[Connection], Found]) -> Found:
+        """Runs a query in a thread, so that the event loop never waits for the disk."""
+
+        def run() -> Found:
+            with self.project.read() as connection:
+                return query(connection)
+
+        return await anyio.to_thread.run_sync(run)
+
+    async def write(self, work: Callable[[Connection], Found]) -> Found:
+        """Runs a transaction; it is on disk when this returns."""
+        return await anyio.to_thread.run_sync(self.project.write, work)

@@ -1,0 +1,225 @@
+"""COCO documents and result lists as evaluation reads them: images paired, each cap with mask and centre.
+
+Both sides come from outside and are checked; what cannot be used raises DocumentError and says where.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from pathlib import PureWindowsPath
+from typing import Any
+
+from msgspec import Struct
+
+from model.contour.marks import whole_of_mark
+from model.errors import FairyringError
+from model.geometry import (
+    Centre,
+    Circle,
+    GeometryError,
+    Polygon,
+    Shape,
+    canonical_ellipse,
+    centre_of_shape,
+    diameter_of_shape,
+)
+from model.raster import Rle, check_outline, check_rle, mask_of_rle, outline_of_mask, rle_of_outline
+
+ELLIPSE_FIGURES = 5
+CIRCLE_FIGURES = 3
+
+
+class DocumentError(FairyringError):
+    """A document that cannot be evaluated; the sentence names the item, not the file."""
+
+
+class CapRecord(Struct, frozen=True, kw_only=True):
+    """One cap, true or predicted, as far as its centre is concerned."""
+
+    id: int | str | None = None
+    rle: Rle | None = None
+    """Visible pixels; None where caps are paired by id."""
+    centre: Centre | None = None
+    """None where nobody marked it, or a method refused it."""
+    diameter: float | None = None
+    """Pixels, of the whole cap."""
+    ignored: bool = False
+    """Truth only: the cap counts neither way."""
+
+
+class Page(Struct, frozen=True, kw_only=True):
+    """One image of the truth, with what was predicted there."""
+
+    file_name: str
+    """Base name."""
+    width: int
+    height: int
+    truths: list[CapRecord]
+    predictions: list[CapRecord]
+
+
+class _Image(Struct, frozen=True, kw_only=True):
+    id: int | str
+    file_name: str
+    width: int
+    height: int
+
+
+def pages_of(predicted: Any, truth: Any, *, with_masks: bool) -> list[Page]:
+    """The truth's images in its order, with the caps of both sides.
+
+    Images are paired by base file name; a result list, which names none, goes by the other side's image ids.
+    Without masks no segmentation is read and every cap must have an id. Raises DocumentError.
+    """
+    true_images, predicted_images = _images(truth), _images(predicted)
+    if true_images is None and predicted_images is None:
+        raise DocumentError(
+            "Neither side lists images, and their sizes are needed; give a COCO file with images."
+        )
+    listed = true_images if true_images is not None else predicted_images or {}
+    of_truth, of_prediction = _annotations(truth), _annotations(predicted)
+    pages = []
+    for name, image in listed.items():
+        other = (predicted_images or listed).get(name)
+        if other is not None and (other.width, other.height) != (image.width, image.height):
+            raise DocumentError(
+                f"{name} has different sizes in the two files; they must show the same photo."
+            )
+        predictions = of_prediction.get(other.id, []) if other else []
+        pages.append(
+            Page(
+                file_name=name,
+                width=image.width,
+                height=image.height,
+                truths=_caps(of_truth.get(image.id, []), image, with_masks=with_masks),
+                predictions=_caps(predictions, image, with_masks=with_masks),
+            )
+        )
+    return pages
+
+
+def _images(document: Any) -> dict[str, _Image] | None:
+    """By base name; None for a result list."""
+    if isinstance(document, list):
+        return None
+    if not isinstance(document, dict) or not isinstance(document.get("images"), list):
+        raise DocumentError("This is neither a COCO file with images nor a list of results.")
+    images: dict[str, _Image] = {}
+    for entry in document["images"]:
+        image = _image(entry)
+        if image.file_name in images:
+            raise DocumentError(f"Two images are called {image.file_name}; base file names must differ.")
+        images[image.file_name] = image
+    return images
+
+
+def _image(entry: Any) -> _Image:
+    if not isinstance(entry, dict) or not isinstance(entry.get("file_name"), str):
+        raise DocumentError("An image has no file name.")
+    # Both kinds of slash part folders here, whatever machine wrote the file.
+    name = PureWindowsPath(entry["file_name"]).name
+    width, height = entry.get("width"), entry.get("height")
+    if type(width) is not int or type(height) is not int or width < 1 or height < 1:
+        raise DocumentError(f"The image {name} has no proper width and height.")
+    if not isinstance(entry.get("id"), int | str):
+        raise DocumentError(f"The image {name} has no id.")
+    return _Image(id=entry["id"], file_name=name, width=width, height=height)
+
+
+def _annotations(document: Any) -> dict[int | str, list[dict[str, Any]]]:
+    """By image id."""
+    entries = document if isinstance(document, list) else document.get("annotations", [])
+    if not isinstance(entries, list):
+        raise DocumentError("The annotations are not a list.")
+    grouped: dict[int | str, list[dict[str, Any]]] = defaultdict(list)
+    for entry in entries:
+        if not isinstance(entry, dict) or not isinstance(entry.get("image_id"), int | str):
+            raise DocumentError("An annotation does not say which image it belongs to.")
+        grouped[entry["image_id"]].append(entry)
+    return grouped
+
+
+def _caps(entries: list[dict[str, Any]], image: _Image, *, with_masks: bool) -> list[CapRecord]:
+    caps = []
+    for entry in entries:
+        where = f"Annotation {entry.get('id', '(without id)')} of {image.file_name}"
+        try:
+            caps.append(_cap(entry, image, with_masks=with_masks))
+        except (GeometryError, DocumentError) as error:
+            raise DocumentError(f"{where}: {error}") from error
+    if not with_masks:
+        _check_ids(caps, image)
+    return caps
+
+
+def _check_ids(caps: list[CapRecord], image: _Image) -> None:
+    ids = [cap.id for cap in caps]
+    if None in ids or len(set(ids)) < len(ids):
+        raise DocumentError(f"The annotations of {image.file_name} need an id each to be paired by it.")
+
+
+def _cap(entry: dict[str, Any], image: _Image, *, with_masks: bool) -> CapRecord:
+    identifier = entry.get("id")
+    segmentation = entry.get("segmentation") if with_masks else None
+    shape, centre = _shape(entry), _figures(entry, "center", 2)
+    if shape is None and with_masks and not entry.get("refusal"):
+        shape = _fitted(segmentation, image)
+    if entry.get("refusal"):
+        centre = None
+    elif centre is None and shape is not None:
+        centre = centre_of_shape(shape)
+    return CapRecord(
+        id=identifier if isinstance(identifier, int | str) else None,
+        rle=_rle(segmentation, image) if with_masks else None,
+        centre=(float(centre[0]), float(centre[1])) if centre else None,
+        diameter=diameter_of_shape(shape) if shape else _diameter_of_box(entry),
+        ignored=any(bool(entry.get(key)) for key in ("ignore", "ignored", "iscrowd")),
+    )
+
+
+def _shape(entry: dict[str, Any]) -> Shape | None:
+    """The whole outline the annotation states: its circle before its ellipse."""
+    if circle := _figures(entry, "circle", CIRCLE_FIGURES):
+        return Circle(*circle)
+    if ellipse := _figures(entry, "ellipse", ELLIPSE_FIGURES):
+        return canonical_ellipse(*ellipse)
+    return None
+
+
+def _figures(entry: dict[str, Any], key: str, count: int) -> list[float] | None:
+    value = entry.get(key)
+    if value is None:
+        return None
+    if (
+        not isinstance(value, list | tuple)
+        or len(value) != count
+        or any(type(figure) not in (int, float) or not math.isfinite(figure) for figure in value)
+    ):
+        raise DocumentError(f"Its {key} is not {count} finite numbers.")
+    return [float(figure) for figure in value]
+
+
+def _rle(segmentation: Any, image: _Image) -> Rle:
+    if isinstance(segmentation, list):
+        outline = check_outline(segmentation, width=image.width, height=image.height)
+        return rle_of_outline(outline, width=image.width, height=image.height)
+    rle = check_rle(segmentation)
+    if rle["size"] != [image.height, image.width]:
+        raise DocumentError(f"Its mask is not of the image's size, {image.width} × {image.height}.")
+    return rle
+
+
+def _fitted(segmentation: Any, image: _Image) -> Shape | None:
+    """The ellipse fitted to the polygon's vertices, of all its parts together; an RLE is outlined first."""
+    if isinstance(segmentation, list):
+        outline = check_outline(segmentation, width=image.width, height=image.height)
+    else:
+        outline = outline_of_mask(mask_of_rle(_rle(segmentation, image)))
+    return whole_of_mark(Polygon([figure for part in outline for figure in part]))
+
+
+def _diameter_of_box(entry: dict[str, Any]) -> float | None:
+    """The longer side: of a cap that is partly hidden, more often than not still its diameter."""
+    box = _figures(entry, "bbox", 4)
+    return max(box[2:]) or None if box else None

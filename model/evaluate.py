@@ -1,0 +1,248 @@
+"""How far predicted centres lie from true ones: matching, Eq. 10, and figures over many caps.
+
+CDR shrinks as the image grows, so every figure stands beside the error in pixels and over the cap's
+diameter; the signed error shows a bias that absolute figures hide; and caps that found no partner are
+counted apart, never averaged away.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+from msgspec import Struct, to_builtins
+from numpy.typing import NDArray
+
+from model.documents import CapRecord, pages_of
+from model.errors import FairyringError
+from model.geometry import Centre
+from model.raster import Rle, iou_matrix, share_inside
+
+LEAST_IOU = 0.5
+"""From here on a prediction is the truth's partner."""
+IGNORED_SHARE = 0.5
+"""An unmatched prediction with this much of its area in ignored regions counts neither way."""
+
+
+class CentreError(Struct, frozen=True, kw_only=True):
+    """A predicted centre against the true one."""
+
+    cdr: float
+    """Percent (Eq. 10)."""
+    px: float
+    relative: float | None
+    """Over the cap's diameter; None where that is not known."""
+    dx: float
+    """Predicted minus true, pixels."""
+    dy: float
+
+
+class Pair(Struct, frozen=True, kw_only=True):
+    """A truth and its prediction, as indices into what was compared."""
+
+    truth: int
+    prediction: int
+    iou: float | None
+    """None where they were paired by id."""
+    error: CentreError | None
+    """None where one of them has no centre."""
+
+
+class Comparison(Struct, frozen=True, kw_only=True):
+    """The truths and predictions of one image. Indices are those of the sequences compared."""
+
+    pairs: list[Pair]
+    missed: list[int]
+    """Truths, the ignored ones left out, without a prediction."""
+    extra: list[int]
+    """Predictions without a truth, those in ignored regions left out."""
+
+    @property
+    def errors(self) -> list[CentreError]:
+        return [pair.error for pair in self.pairs if pair.error]
+
+
+class Spread(Struct, frozen=True, kw_only=True):
+    """None throughout where there was nothing to average."""
+
+    mean: float | None = None
+    median: float | None = None
+    p95: float | None = None
+
+
+class Summary(Struct, frozen=True, kw_only=True):
+    """Centre errors of many caps."""
+
+    cdr: Spread
+    """Percent."""
+    px: Spread
+    relative: Spread
+    bias_px: tuple[float, float] | None
+    """Mean signed error in x and y."""
+
+
+def centre_error(
+    predicted: Centre, true: Centre, *, width: int, height: int, diameter: float | None
+) -> CentreError:
+    """Eq. 10, E = (|Δx| / W + |Δy| / H) · 100 %, of an image of this size, and what stands beside it."""
+    dx, dy = predicted[0] - true[0], predicted[1] - true[1]
+    px = math.hypot(dx, dy)
+    return CentreError(
+        cdr=100 * (abs(dx) / width + abs(dy) / height),
+        px=px,
+        relative=px / diameter if diameter else None,
+        dx=dx,
+        dy=dy,
+    )
+
+
+def compare(
+    truths: Sequence[CapRecord], predictions: Sequence[CapRecord], *, width: int, height: int
+) -> Comparison:
+    """Pairs the caps of one image one to one by their masks and measures their centres.
+
+    Pairs are taken in order of falling IoU down to LEAST_IOU. Between visible masks, which hardly overlap
+    among themselves, a mask has at most one partner above a half, and the order then decides nothing; where
+    predictions do overlap, the best one gets the cap. Ignored truths take no partner.
+    """
+    real = [index for index, truth in enumerate(truths) if not truth.ignored]
+    iou = iou_matrix([_mask(truths[index]) for index in real], [_mask(cap) for cap in predictions])
+    pairs = [
+        _pair(truths, predictions, real[row], column, iou=float(iou[row, column]), size=(width, height))
+        for row, column in _one_to_one(iou)
+    ]
+    found, used = {pair.truth for pair in pairs}, {pair.prediction for pair in pairs}
+    ignored = [_mask(truth) for truth in truths if truth.ignored]
+    return Comparison(
+        pairs=pairs,
+        missed=[index for index in real if index not in found],
+        extra=[
+            index
+            for index, cap in enumerate(predictions)
+            if index not in used and share_inside(_mask(cap), ignored) < IGNORED_SHARE
+        ],
+    )
+
+
+def compare_by_id(
+    truths: Sequence[CapRecord], predictions: Sequence[CapRecord], *, width: int, height: int
+) -> Comparison:
+    """Pairs the caps of one image that have the same id, without a look at their masks."""
+    place = {cap.id: index for index, cap in enumerate(predictions)}
+    ignored = {cap.id for cap in truths if cap.ignored}
+    real = [index for index, cap in enumerate(truths) if not cap.ignored]
+    pairs = [
+        _pair(truths, predictions, index, place[truths[index].id], iou=None, size=(width, height))
+        for index in real
+        if truths[index].id in place
+    ]
+    found, used = {pair.truth for pair in pairs}, {pair.prediction for pair in pairs}
+    return Comparison(
+        pairs=pairs,
+        missed=[index for index in real if index not in found],
+        extra=[i for i, cap in enumerate(predictions) if i not in used and cap.id not in ignored],
+    )
+
+
+def summarise(errors: Sequence[CentreError]) -> Summary:
+    """Mean, median and 95th percentile over caps, of one image or many."""
+    bias = (
+        (float(np.mean([e.dx for e in errors])), float(np.mean([e.dy for e in errors]))) if errors else None
+    )
+    return Summary(
+        cdr=_spread([e.cdr for e in errors]),
+        px=_spread([e.px for e in errors]),
+        relative=_spread([e.relative for e in errors if e.relative is not None]),
+        bias_px=bias,
+    )
+
+
+def evaluate_centres(predicted: Any, truth: Any, *, by: Literal["iou", "id"] = "iou") -> dict[str, Any]:
+    """The figures of ``fairyring evaluate centres`` for two COCO documents or result lists.
+
+    Only the truth's images count. Images are paired by base file name, by their id where one side is a list;
+    caps within an image by mask (``compare``) or, with ``by="id"``, by annotation id, which reads no
+    segmentation. A cap whose prediction has no centre (``contour`` refused it) counts as missed. Raises
+    FairyringError for what is not such a document.
+    """
+    pages = pages_of(predicted, truth, with_masks=by == "iou")
+    pair_up = compare if by == "iou" else compare_by_id
+    compared = [
+        _refused_as_missed(
+            pair_up(page.truths, page.predictions, width=page.width, height=page.height), page.predictions
+        )
+        for page in pages
+    ]
+    summary = summarise([error for comparison in compared for error in comparison.errors])
+    return {
+        **to_builtins(summary),
+        "matched": sum(len(comparison.pairs) for comparison in compared),
+        "missed": sum(len(comparison.missed) for comparison in compared),
+        "extra": sum(len(comparison.extra) for comparison in compared),
+        "images": [
+            {
+                "file_name": page.file_name,
+                "cdr_mean": summarise(comparison.errors).cdr.mean,
+                "count": len(comparison.errors),
+            }
+            for page, comparison in zip(pages, compared, strict=True)
+        ],
+    }
+
+
+def _refused_as_missed(comparison: Comparison, predictions: Sequence[CapRecord]) -> Comparison:
+    """Else a method could better its figures by refusing the caps it finds hard."""
+    refused = [pair for pair in comparison.pairs if predictions[pair.prediction].centre is None]
+    return Comparison(
+        pairs=[pair for pair in comparison.pairs if pair not in refused],
+        missed=sorted([*comparison.missed, *(pair.truth for pair in refused)]),
+        extra=comparison.extra,
+    )
+
+
+def _pair(
+    truths: Sequence[CapRecord],
+    predictions: Sequence[CapRecord],
+    truth: int,
+    prediction: int,
+    *,
+    iou: float | None,
+    size: tuple[int, int],
+) -> Pair:
+    cap, guess = truths[truth], predictions[prediction]
+    error = None
+    if cap.centre and guess.centre:
+        error = centre_error(guess.centre, cap.centre, width=size[0], height=size[1], diameter=cap.diameter)
+    return Pair(truth=truth, prediction=prediction, iou=iou, error=error)
+
+
+def _one_to_one(iou: NDArray[np.float64]) -> list[tuple[int, int]]:
+    """(row, column) pairs in order of falling IoU, each row and column once."""
+    rows, columns = np.nonzero(iou >= LEAST_IOU)
+    order = np.argsort(-iou[rows, columns], kind="stable")
+    pairs: list[tuple[int, int]] = []
+    free_rows, free_columns = set(rows.tolist()), set(columns.tolist())
+    for row, column in zip(rows[order].tolist(), columns[order].tolist(), strict=True):
+        if row in free_rows and column in free_columns:
+            pairs.append((row, column))
+            free_rows.remove(row)
+            free_columns.remove(column)
+    return pairs
+
+
+def _mask(cap: CapRecord) -> Rle:
+    if cap.rle is None:
+        raise FairyringError("Caps without masks can only be paired by id.")
+    return cap.rle
+
+
+def _spread(figures: Sequence[float]) -> Spread:
+    if not figures:
+        return Spread()
+    return Spread(
+        mean=float(np.mean(figures)),
+        median=float(np.median(figures)),
+        p95=float(np.percentile(figures, 95)),
+    )

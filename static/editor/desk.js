@@ -1,0 +1,339 @@
+/**
+ * The annotator's desk: the image on screen, what is selected, held and looked at, and the ways to change
+ * it. Tools and commands work on this and know nothing of canvases or sockets.
+ *
+ * @module
+ */
+
+import { boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./caps.js";
+import { movedHandle } from "./handles.js";
+import { signal } from "./signal.js";
+import { Store, isPrediction, shapeOfPrediction } from "./store.js";
+import { newId } from "./tabs.js";
+import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view.js";
+
+/** @typedef {import("./handles.js").Handle} Handle */
+/** @typedef {import("./messages.js").Cap} Cap */
+/** @typedef {import("./messages.js").Document} Document */
+/** @typedef {import("./messages.js").Image} Image */
+/** @typedef {import("./store.js").Change} Change */
+/** @typedef {import("./store.js").Shape} Shape */
+/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("./view.js").View} View */
+
+const NUDGE_SETTLES_MS = 400;
+
+/** @type {Record<string, boolean>} */
+export const LAYERS = { photo: true, outline: true, fill: true, whole: true, centre: true, label: false, prediction: true };
+
+export class Desk {
+  store = new Store();
+  /** @type {Image | null} */
+  image = null;
+  /** @type {Shape[]} */
+  predictions = [];
+  /** @type {Set<string>} */
+  selected = new Set();
+  /** @type {string | null} */
+  hovered = null;
+  /** @type {Handle | null} */
+  active = null;
+  /** Caps being changed, not yet committed, by uid. @type {Map<string, Shape>} */
+  drafts = new Map();
+  /** @type {View} */
+  view = { scale: 1, x: 0, y: 0 };
+  size = { width: 0, height: 0 };
+  layers = { ...LAYERS };
+  hidden = false;
+
+  signals = {
+    /** The picture of these caps has changed. @type {import("./signal.js").Signal<[Shape[]]>} */
+    shapes: signal(),
+    /** Everything has. @type {import("./signal.js").Signal<[]>} */
+    picture: signal(),
+    /** Only what is drawn over the picture. @type {import("./signal.js").Signal<[]>} */
+    overlay: signal(),
+    /** @type {import("./signal.js").Signal<[]>} */
+    selection: signal(),
+    /** @type {import("./signal.js").Signal<[Shape]>} */
+    draft: signal(),
+  };
+
+  /** @type {Shape[] | null} */
+  #items = null;
+  /** @type {Map<number, View>} */
+  #views = new Map();
+  #nudging = 0;
+  #commit;
+
+  /** @param {(changes: Change[]) => void} commit */
+  constructor(commit) {
+    this.#commit = commit;
+    this.store.observe((changes) => {
+      this.#items = null;
+      const gone = changes.filter(({ after }) => after.deleted && this.selected.has(after.uid));
+      this.signals.shapes.emit(changes.flatMap(({ before, after }) => (before ? [before, after] : [after])));
+      if (gone.length) this.select([...this.selected].filter((uid) => this.item(uid)));
+    });
+  }
+
+  /** What can be seen and picked: live caps, and predictions nobody has taken up or turned down. */
+  get items() {
+    if (!this.#items) {
+      const taken = new Set(this.store.all().map(({ cap }) => cap.prediction));
+      const open = this.predictions.filter(({ cap }) => !taken.has(cap.prediction));
+      this.#items = [...open, ...this.store.live()];
+    }
+    return this.#items;
+  }
+
+  /** Items that the layers let one see. */
+  get pickable() {
+    return this.layers.prediction ? this.items : this.items.filter((shape) => !isPrediction(shape));
+  }
+
+  /** @type {(uid: string) => Shape | null} */
+  item(uid) {
+    return this.items.find((shape) => shape.uid === uid) ?? null;
+  }
+
+  /** The selected items, as they look while being changed. */
+  get selection() {
+    return [...this.selected].flatMap((uid) => this.drafts.get(uid) ?? this.item(uid) ?? []);
+  }
+
+  /** The one selected item. @returns {Shape | null} */
+  get sole() {
+    return this.selected.size === 1 ? (this.selection[0] ?? null) : null;
+  }
+
+  /** What is drawn over the picture rather than in it. */
+  get lifted() {
+    const uids = new Set(this.drafts.keys());
+    if (this.selected.size === 1) for (const uid of this.selected) uids.add(uid);
+    return uids;
+  }
+
+  /**
+   * Puts another image, or a fresh copy of the same, on the desk. The store holds its caps already.
+   *
+   * @param {Document} document
+   */
+  open(document) {
+    const same = this.image?.id === document.image.id;
+    if (this.image && !same) this.#views.set(this.image.id, this.view);
+    const selected = same ? [...this.selected] : [];
+    this.image = document.image;
+    this.predictions = document.predictions.map(shapeOfPrediction);
+    this.#items = null;
+    this.drafts.clear();
+    this.hovered = null;
+    const known = this.#views.get(this.image.id);
+    if (!same && known) this.setView(known);
+    else if (!same) this.fit();
+    this.selected = new Set(selected.filter((uid) => this.item(uid)));
+    this.active = null;
+    this.signals.picture.emit();
+    this.signals.selection.emit();
+  }
+
+  /**
+   * @param {string[]} uids
+   * @param {{reveal?: boolean}} [how]
+   */
+  select(uids, { reveal = false } = {}) {
+    this.settle();
+    const before = [...this.selected];
+    this.selected = new Set(uids);
+    this.active = null;
+    if (reveal) this.reveal();
+    if (before.join() === uids.join()) return;
+    this.signals.shapes.emit([...before, ...uids].flatMap((uid) => this.item(uid) ?? []));
+    this.signals.selection.emit();
+  }
+
+  /** @type {(uid: string | null) => void} */
+  hover(uid) {
+    if (uid === this.hovered) return;
+    this.hovered = uid;
+    this.signals.overlay.emit();
+  }
+
+  /**
+   * Shows caps as they would become, without committing them.
+   *
+   * @param {Shape[]} shapes
+   */
+  propose(shapes) {
+    const fresh = shapes.filter(({ uid }) => !this.drafts.has(uid));
+    for (const shape of shapes) this.drafts.set(shape.uid, shape);
+    if (fresh.some(({ uid }) => this.selected.size !== 1 || !this.selected.has(uid))) this.signals.shapes.emit(fresh);
+    if (shapes.length === 1) this.signals.draft.emit(shapes[0]);
+    this.signals.overlay.emit();
+  }
+
+  /** Forgets what was proposed. */
+  withdraw() {
+    clearTimeout(this.#nudging);
+    const shapes = [...this.drafts.values()];
+    this.drafts.clear();
+    if (shapes.length) this.signals.shapes.emit(shapes);
+  }
+
+  /** Commits what was proposed, as one step. */
+  settle() {
+    clearTimeout(this.#nudging);
+    if (this.drafts.size === 0) return;
+    const changes = [...this.drafts.values()].flatMap((draft) => {
+      const before = this.item(draft.uid);
+      return before && before.cap !== draft.cap ? [changed(before, draft)] : [];
+    });
+    this.drafts.clear();
+    this.commit(changes);
+    this.signals.overlay.emit();
+  }
+
+  /**
+   * Commits changes; the selection follows predictions that became annotations.
+   *
+   * @param {Change[]} changes
+   */
+  commit(changes) {
+    this.#commit(changes);
+    const heirs = changes.filter(({ before, after }) => !before && after.cap.prediction !== null && !after.deleted);
+    const heirOf = new Map(heirs.map(({ after }) => [`prediction:${after.cap.prediction}`, after.uid]));
+    const active = this.active;
+    if ([...this.selected].some((uid) => heirOf.has(uid))) {
+      this.select([...this.selected].map((uid) => heirOf.get(uid) ?? uid));
+      this.active = active;
+    }
+  }
+
+  /**
+   * Changes the selected caps as `change` says; null leaves a cap alone.
+   *
+   * @param {(cap: Cap, shape: Shape) => Cap | null} change
+   */
+  changeSelected(change) {
+    this.settle();
+    const changes = this.selection.flatMap((shape) => {
+      const cap = change(shape.cap, shape);
+      return cap && cap !== shape.cap ? [changed(shape, withCap(shape, cap))] : [];
+    });
+    this.commit(changes);
+  }
+
+  /** Deletes the selected caps and turns down the selected predictions. */
+  deleteSelected() {
+    this.settle();
+    const shapes = this.selection;
+    this.select([]);
+    this.commit(shapes.map((shape) => changed(shape, { ...shape, deleted: true })));
+  }
+
+  /** @type {(shapes: Shape[]) => void} */
+  accept(shapes) {
+    this.settle();
+    this.commit(shapes.filter(isPrediction).map((shape) => changed(shape, shape)));
+  }
+
+  /**
+   * Moves the active handle, or all that is selected, by a fraction of a pixel. A burst is one step.
+   *
+   * @param {number} dx
+   * @param {number} dy
+   */
+  nudge(dx, dy) {
+    const handle = this.selected.size === 1 ? this.active : null;
+    const moved = this.selection.map((shape) =>
+      handle ? withCap(shape, nudgedHandle(shape.cap, handle, dx, dy)) : movedShape(shape, dx, dy),
+    );
+    if (moved.length === 0) return;
+    this.propose(moved);
+    clearTimeout(this.#nudging);
+    this.#nudging = window.setTimeout(() => this.settle(), NUDGE_SETTLES_MS);
+  }
+
+  /** @type {(view: View) => void} */
+  setView(view) {
+    this.view = onDevicePixels(view, window.devicePixelRatio);
+    this.signals.overlay.emit();
+  }
+
+  /** @type {(dx: number, dy: number) => void} */
+  panBy(dx, dy) {
+    this.setView(panned(this.view, dx, dy));
+  }
+
+  /** @type {(x: number, y: number, factor: number) => void} */
+  zoomAt(x, y, factor) {
+    this.setView(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
+  }
+
+  fit() {
+    this.setView(this.#fittingView());
+  }
+
+  #fittingView() {
+    const { width, height } = this.image ?? { width: 1, height: 1 };
+    return fitted({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
+  }
+
+  /** Brings the selection into view. @param {{close?: boolean}} [how] */
+  reveal({ close = false } = {}) {
+    const all = this.selection.flatMap((shape) => boundsOf(shape) ?? []);
+    if (all.length === 0) return;
+    const bounds = {
+      x0: Math.min(...all.map(({ x0 }) => x0)),
+      y0: Math.min(...all.map(({ y0 }) => y0)),
+      x1: Math.max(...all.map(({ x1 }) => x1)),
+      y1: Math.max(...all.map(({ y1 }) => y1)),
+    };
+    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
+    this.setView(close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size));
+  }
+}
+
+/** @type {(cap: Cap, handle: Handle, dx: number, dy: number) => Cap} */
+function nudgedHandle(cap, handle, dx, dy) {
+  const mark = placedWhole(cap);
+  const from = /** @type {import("./messages.js").Point} */ (mark ? [boundsOfWhole(mark).x1, mark.cy] : [0, 0]);
+  return movedHandle(cap, handle, { dx: handle.kind === "rim" && dx === 0 ? -dy : dx, dy: handle.kind === "rim" ? 0 : dy, from, pull: 0 });
+}
+
+/** @type {(shape: Shape, dx: number, dy: number) => Shape} */
+export function movedShape(shape, dx, dy) {
+  const cap = movedCap(shape.cap, dx, dy);
+  const { centre } = shape;
+  return { ...shape, cap, whole: movedWhole(shape.whole, dx, dy), centre: centre && [centre[0] + dx, centre[1] + dy] };
+}
+
+/**
+ * The same shape with another cap; a circle a person placed is its own whole outline.
+ *
+ * @param {Shape} shape
+ * @param {Cap} cap
+ * @returns {Shape}
+ */
+export function withCap(shape, cap) {
+  const placed = placedWhole(cap);
+  return placed ? { ...shape, cap, whole: placed, centre: [placed.cx, placed.cy] } : { ...shape, cap };
+}
+
+/**
+ * The change from an item to what it became. A prediction is never changed: an annotation that started
+ * from it takes its place.
+ *
+ * @param {Shape} before
+ * @param {Shape} after
+ * @returns {Change}
+ */
+export function changed(before, after) {
+  if (!isPrediction(before)) return { before, after };
+  return { before: null, after: { ...after, uid: newId(), revision: 0, score: null } };
+}
+
+/** @type {(shape: Shape) => Bounds | null} */
+function boundsOf({ cap, whole }) {
+  return measure(cap).bounds ?? (whole && boundsOfWhole(whole));
+}

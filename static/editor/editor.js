@@ -1,0 +1,316 @@
+/**
+ * Puts the parts together: desk, picture, tools, server.
+ *
+ * @module
+ */
+
+import { COMMANDS } from "./commands.js";
+import { ConflictCard } from "./conflict.js";
+import { Desk } from "./desk.js";
+import { Frame } from "./frame.js";
+import { keyList } from "./help.js";
+import { listenToKeys } from "./keyboard.js";
+import { noticesIn } from "./notices.js";
+import { listenToPanel, pressedButtons } from "./panel.js";
+import { Photos } from "./photos.js";
+import { Pointer } from "./pointer.js";
+import { expose } from "./probe.js";
+import { Refits } from "./refits.js";
+import { placedWhole } from "./caps.js";
+import { statusIn } from "./status.js";
+import { Sync } from "./sync.js";
+import { openOutbox } from "./tabs.js";
+import { CircleTool } from "./tools/circle.js";
+import { panTool } from "./tools/pan.js";
+import { PolygonTool } from "./tools/polygon.js";
+import { SelectTool } from "./tools/select.js";
+import { Transport } from "./transport.js";
+
+/** @typedef {import("./messages.js").FromServer} FromServer */
+/** @typedef {import("./messages.js").Fit} Fit */
+/** @typedef {import("./messages.js").Layers} Layers */
+/** @typedef {import("./messages.js").Show} Show */
+/** @typedef {import("./messages.js").ToServer} ToServer */
+/** @typedef {import("./tools/tool.js").Tool} Tool */
+
+export class Editor {
+  #project = "";
+  #waiting = 0;
+  /** When the person asked for another image. @type {number | null} */
+  #switchAsked = null;
+  #host;
+  #transport;
+  #sync;
+  #refits;
+  #photos;
+  #frame;
+  #desk;
+  #say;
+  #status;
+  #card;
+  #pointer;
+  #pressed;
+  /** @type {Record<string, Tool>} */
+  #tools;
+  /** @type {Tool} */
+  #tool;
+
+  /**
+   * @param {HTMLElement} host
+   * @param {string} url of the editor's socket
+   */
+  constructor(host, url) {
+    this.#host = host;
+    const send = (/** @type {ToServer} */ message) => this.#send(message);
+    this.#desk = new Desk((changes) => this.#sync.commit(changes));
+    this.#transport = new Transport(url, {
+      hello: (token) => ({ type: "hello", token, image: this.#desk.image?.id ?? null }),
+      message: (message) => void this.#receive(message),
+      state: () => this.#connectionChanged(),
+    });
+    this.#sync = new Sync({
+      store: this.#desk.store,
+      send,
+      stalled: () => this.#transport.drop(),
+      progress: () => this.#progress(),
+      refused: (reason) => this.#say(reason, "error"),
+    });
+    this.#refits = new Refits(send);
+    this.#photos = new Photos(() => this.#frame.redrawPhoto());
+    this.#frame = new Frame(host, this.#desk, this.#photos, () => [this.#tool.sketch ?? (() => null), this.#card.sketch]);
+    this.#say = noticesIn(host);
+    this.#status = statusIn(host);
+    this.#card = new ConflictCard(host, {
+      resolve: (clash, whose) => this.#sync.resolve(clash, whose),
+      show: (clash) => this.#showClash(clash),
+    });
+    this.#tools = this.#makeTools();
+    this.#tool = this.#tools.select;
+    this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#tool);
+    this.#pressed = pressedButtons(() => this.#tool.name);
+    const run = this.#makeRunner();
+    listenToKeys({ run, desk: this.#desk, pointer: this.#pointer, blame: (at) => this.#frame.blame(at, "key") });
+    listenToPanel({ run, use: (name) => this.#use(name), open: (image, select) => this.#open(image, select) });
+    this.run = run;
+    this.#listen();
+    this.#progress();
+    expose(host, {
+      desk: this.#desk,
+      frame: this.#frame,
+      waiting: () => this.#sync.waiting,
+      connection: () => this.#transport.state,
+      tool: () => this.#tool.name,
+    });
+  }
+
+  /** @type {(token: string) => void} */
+  offer(token) {
+    this.#transport.offer(token);
+  }
+
+  /** @returns {Record<string, Tool>} */
+  #makeTools() {
+    return {
+      select: new SelectTool(this.#desk),
+      polygon: new PolygonTool(this.#desk, () => this.#use("select")),
+      circle: new CircleTool(this.#desk),
+      pan: panTool(this.#desk),
+    };
+  }
+
+  /** @returns {(name: string) => boolean} */
+  #makeRunner() {
+    const bench = {
+      desk: this.#desk,
+      sync: this.#sync,
+      tool: () => this.#tool,
+      use: (/** @type {string} */ name) => this.#use(name),
+      send: (/** @type {ToServer} */ message) => this.#send(message),
+      toggle: (/** @type {string} */ layer) => this.#toggle(layer),
+      help: keyList(),
+      say: (/** @type {string} */ text) => this.#say(text),
+    };
+    return (name) => {
+      const command = Object.hasOwn(COMMANDS, name) ? COMMANDS[name] : null;
+      command?.(bench);
+      return command !== null;
+    };
+  }
+
+  #listen() {
+    const { signals } = this.#desk;
+    signals.selection.listen(() => this.#tellSelection());
+    signals.draft.listen(({ uid, cap }) => {
+      const image = this.#desk.image?.id;
+      if (image !== undefined && !placedWhole(cap)) this.#refits.ask({ image, annotation: uid, cap });
+    });
+    new ResizeObserver(([entry]) => this.#resized(entry.contentRect)).observe(this.#host);
+    window.addEventListener("beforeunload", (event) => {
+      this.#desk.settle();
+      if (!this.#sync.kept) event.preventDefault();
+    });
+  }
+
+  /** @type {(box: {width: number, height: number}) => void} */
+  #resized({ width, height }) {
+    const desk = this.#desk;
+    const first = desk.size.width === 0;
+    const [dx, dy] = [(width - desk.size.width) / 2, (height - desk.size.height) / 2];
+    desk.size = { width, height };
+    if (first) desk.fit();
+    else desk.panBy(dx, dy);
+  }
+
+  /** @type {(name: string) => void} */
+  #use(name) {
+    if (!Object.hasOwn(this.#tools, name) || this.#tool.name === name) return;
+    this.#tool.cancel();
+    this.#desk.settle();
+    this.#tool = this.#tools[name];
+    this.#desk.hover(null);
+    this.#pressed();
+    this.#pointer.cursor();
+  }
+
+  /** @type {(message: ToServer) => boolean} */
+  #send(message) {
+    if (message.type === "step" || message.type === "open") this.#switchAsked = performance.now();
+    const sent = this.#transport.send(message);
+    if (!sent && this.#switchAsked !== null) {
+      this.#say("The server cannot be reached; other images can be opened when it is back.", "warning");
+      this.#switchAsked = null;
+    }
+    return sent;
+  }
+
+  /** @type {(image: number, select: string | null) => void} */
+  #open(image, select) {
+    this.#desk.settle();
+    if (image === this.#desk.image?.id) {
+      if (select) this.#desk.select([select], { reveal: true });
+      return;
+    }
+    this.#send({ type: "open", image, select });
+  }
+
+  /** @type {(clash: import("./sync.js").Clash) => void} */
+  #showClash(clash) {
+    this.#open(clash.image, clash.uid);
+    if (clash.image === this.#desk.image?.id && this.#desk.item(clash.uid)) this.#desk.select([clash.uid], { reveal: true });
+  }
+
+  #tellSelection() {
+    const sole = this.#desk.sole;
+    const predicted = sole?.score != null;
+    this.#transport.send({
+      type: "select",
+      annotation: sole && !predicted ? sole.uid : null,
+      prediction: predicted ? (sole?.cap.prediction ?? null) : null,
+    });
+  }
+
+  #connectionChanged() {
+    if (this.#transport.state === "offline") this.#sync.pause();
+    this.#progress();
+  }
+
+  #progress() {
+    const { waiting, kept, clashes } = this.#sync;
+    this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
+    this.#card.update(clashes, this.#desk.image?.id ?? 0);
+    if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting })) this.#waiting = waiting;
+  }
+
+  /** @type {(message: FromServer) => Promise<void>} */
+  async #receive(message) {
+    switch (message.type) {
+      case "welcome":
+        return this.#welcome(message.project);
+      case "show":
+        return this.#show(message);
+      case "outcomes":
+        return this.#sync.settle(message.outcomes);
+      case "changed":
+        return this.#sync.changed(message.image, message.annotations);
+      case "fit":
+        return this.#fitted(message);
+      case "layers":
+        return this.#layers(message);
+      case "command":
+        return void this.run(message.name);
+      case "notice":
+        return this.#say(message.text, message.level);
+    }
+  }
+
+  /** @type {(project: string) => Promise<void>} */
+  async #welcome(project) {
+    this.#waiting = 0;
+    if (this.#project !== project) {
+      this.#project = project;
+      this.#sync.use(await openOutbox(project));
+    }
+    this.#sync.resume();
+  }
+
+  /** @type {(show: Show) => void} */
+  #show({ document, photo, select, ahead }) {
+    const asked = this.#switchAsked ?? performance.now();
+    this.#switchAsked = null;
+    const { image } = document;
+    if (image.id !== this.#desk.image?.id) {
+      this.#tool.cancel();
+      this.#desk.settle();
+      this.#frame.blank();
+    }
+    this.#sync.open(image.id, document.annotations);
+    this.#desk.open(document);
+    if (select) this.#desk.select([select], { reveal: true });
+    this.#progress();
+    this.#photos
+      .open(photo, image)
+      .then(() => this.#frame.whenComplete(() => this.#shown(asked, ahead)))
+      .catch((error) => this.#say(`${image.file_name}: ${error.message}`, "error"));
+  }
+
+  /** @type {(asked: number, ahead: string[]) => void} */
+  #shown(asked, ahead) {
+    const drawn = performance.now();
+    this.#frame.log({ event: asked, drawn, draw_ms: 0, kind: "switch" });
+    this.#photos.prefetch(ahead);
+  }
+
+  /** @type {(fit: Fit) => void} */
+  #fitted(fit) {
+    const question = this.#refits.take(fit);
+    const desk = this.#desk;
+    const draft = desk.drafts.get(fit.annotation);
+    const { whole, centre } = fit;
+    if (draft) {
+      desk.drafts.set(fit.annotation, { ...draft, whole, centre });
+      desk.signals.overlay.emit();
+      return;
+    }
+    const shape = desk.store.get(fit.annotation);
+    if (shape && shape.cap === question?.cap) {
+      desk.store.apply([{ before: shape, after: { ...shape, whole, centre } }], "remote");
+    }
+  }
+
+  /** @type {(layers: Layers) => void} */
+  #layers({ visible, brightness, contrast }) {
+    const plain = brightness === 1 && contrast === 1;
+    this.#frame.tint(plain ? "" : `brightness(${brightness}) contrast(${contrast})`);
+    const layers = { ...this.#desk.layers, ...visible };
+    if (JSON.stringify(layers) === JSON.stringify(this.#desk.layers)) return;
+    this.#desk.layers = layers;
+    this.#frame.redraw();
+  }
+
+  /** @type {(layer: string) => void} */
+  #toggle(layer) {
+    this.#desk.layers = { ...this.#desk.layers, [layer]: !this.#desk.layers[layer] };
+    this.#frame.redraw();
+    this.#transport.send({ type: "toggle", layer });
+  }
+}

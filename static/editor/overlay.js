@@ -1,0 +1,214 @@
+/**
+ * What changes from frame to frame: the cap being edited with its handles, the one under the pointer, the
+ * outline being drawn. Only the rectangle that was drawn last is wiped.
+ *
+ * @module
+ */
+
+import { boundsOfWhole, measure, placedWhole, ringsOf } from "./caps.js";
+import { rimPoints } from "./handles.js";
+import { CASING, COLOURS, FILLS } from "./palette.js";
+import { reachOf } from "./paint.js";
+import { strokeCased, traceCross, traceRing, traceWhole } from "./pen.js";
+import { isPrediction } from "./store.js";
+import { spacedVertices } from "./vertices.js";
+import { toScreen } from "./view.js";
+
+/** @typedef {import("./desk.js").Desk} Desk */
+/** @typedef {import("./messages.js").Point} Point */
+/** @typedef {import("./store.js").Shape} Shape */
+/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("./view.js").View} View */
+/** @typedef {CanvasRenderingContext2D} Context */
+/** @typedef {(context: Context, view: View) => Bounds | null} Sketch  draws, and returns what it touched on screen */
+
+const HANDLE_GAP_PX = 9;
+const REACH_PX = 28;
+
+export class Overlay {
+  /** @type {Bounds | null} */
+  #dirty = null;
+  #canvas = document.createElement("canvas");
+  #context;
+
+  /** @param {HTMLElement} host */
+  constructor(host) {
+    const context = this.#canvas.getContext("2d");
+    if (!context) throw new Error("This browser cannot draw on a canvas.");
+    this.#context = context;
+    host.append(this.#canvas);
+  }
+
+  /**
+   * @param {Desk} desk
+   * @param {number} ratio
+   * @param {Sketch[]} sketches  of the tool in hand, of a conflict
+   */
+  draw(desk, ratio, sketches) {
+    const context = this.#context;
+    this.#fit(desk.size, ratio);
+    this.#wipe();
+    if (desk.hidden) return;
+    context.lineJoin = "round";
+    context.lineCap = "round";
+    for (const shape of hoveredAndLifted(desk)) {
+      const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
+      if (only) drawHovered(context, desk.view, shape);
+      else drawLifted(context, desk.view, shape, desk);
+      this.#touch(onScreen(desk.view, shape));
+    }
+    for (const sketch of sketches) this.#touch(sketch(context, desk.view));
+  }
+
+  /** @type {(size: {width: number, height: number}, ratio: number) => void} */
+  #fit({ width, height }, ratio) {
+    const canvas = this.#canvas;
+    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (canvas.width === w && canvas.height === h) return;
+    canvas.width = w;
+    canvas.height = h;
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+    this.#context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#dirty = null;
+  }
+
+  #wipe() {
+    if (!this.#dirty) return;
+    const { x0, y0, x1, y1 } = this.#dirty;
+    this.#context.clearRect(Math.floor(x0), Math.floor(y0), Math.ceil(x1 - x0) + 2, Math.ceil(y1 - y0) + 2);
+    this.#dirty = null;
+  }
+
+  /** @type {(bounds: Bounds | null) => void} */
+  #touch(bounds) {
+    if (!bounds) return;
+    const dirty = this.#dirty ?? bounds;
+    this.#dirty = {
+      x0: Math.min(dirty.x0, bounds.x0),
+      y0: Math.min(dirty.y0, bounds.y0),
+      x1: Math.max(dirty.x1, bounds.x1),
+      y1: Math.max(dirty.y1, bounds.y1),
+    };
+  }
+}
+
+/** @type {(desk: Desk) => Shape[]} */
+function hoveredAndLifted(desk) {
+  const uids = desk.lifted;
+  if (desk.hovered) uids.add(desk.hovered);
+  return [...uids].flatMap((uid) => desk.drafts.get(uid) ?? desk.item(uid) ?? []);
+}
+
+/** @type {(view: View, shape: Shape) => Bounds | null} */
+function onScreen(view, shape) {
+  const bounds = reachOf(shape);
+  if (!bounds) return null;
+  const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
+  const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
+  return { x0: x0 - REACH_PX, y0: y0 - REACH_PX, x1: x1 + REACH_PX, y1: y1 + REACH_PX };
+}
+
+/** @type {(context: Context, view: View, shape: Shape) => void} */
+function drawHovered(context, view, shape) {
+  context.beginPath();
+  for (const ring of shape.cap.visible) traceRing(context, view, ring);
+  const placed = shape.cap.visible.length ? null : placedWhole(shape.cap);
+  if (placed) traceWhole(context, view, placed);
+  context.fillStyle = isPrediction(shape) ? FILLS.prediction : FILLS.selected;
+  context.fill();
+  strokeCased(context, { colour: COLOURS.selected, width: 1.5, casing: CASING });
+}
+
+/** @type {(context: Context, view: View, shape: Shape, desk: Desk) => void} */
+function drawLifted(context, view, shape, desk) {
+  const { cap } = shape;
+  const selected = desk.selected.has(shape.uid);
+  context.beginPath();
+  for (const ring of cap.visible) traceRing(context, view, ring);
+  if (desk.layers.fill) {
+    context.fillStyle = FILLS.selected;
+    context.fill();
+  }
+  if (isPrediction(shape) && !desk.drafts.has(shape.uid)) context.setLineDash([5, 4]);
+  strokeCased(context, { colour: COLOURS.outline, width: 2, casing: CASING });
+  context.setLineDash([]);
+  drawMark(context, view, shape);
+  drawFit(context, view, shape);
+  if (selected && desk.selected.size === 1) drawHandles(context, view, shape, desk);
+}
+
+/** @type {(context: Context, view: View, shape: Shape) => void} */
+function drawMark(context, view, { cap }) {
+  if (!cap.mark) return;
+  context.beginPath();
+  if (cap.mark.kind === "polygon") traceRing(context, view, cap.mark.points);
+  else traceWhole(context, view, cap.mark);
+  strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
+}
+
+/** @type {(context: Context, view: View, shape: Shape) => void} */
+function drawFit(context, view, { cap, whole, centre }) {
+  if (whole && !placedWhole(cap)) {
+    context.beginPath();
+    traceWhole(context, view, whole);
+    context.setLineDash([7, 4]);
+    strokeCased(context, { colour: COLOURS.whole, width: 1.5, casing: CASING });
+    context.setLineDash([]);
+  }
+  if (!centre) return;
+  context.beginPath();
+  traceCross(context, ...toScreen(view, ...centre), 7);
+  strokeCased(context, { colour: cap.mark ? COLOURS.mark : COLOURS.whole, width: 1.5, casing: CASING });
+}
+
+/** @type {(context: Context, view: View, shape: Shape, desk: Desk) => void} */
+function drawHandles(context, view, { cap }, desk) {
+  const active = desk.active;
+  const gap = HANDLE_GAP_PX / view.scale;
+  context.beginPath();
+  for (const ring of ringsOf(cap)) {
+    for (const index of spacedVertices(ring, gap)) {
+      squareAt(context, toScreen(view, ring[2 * index], ring[2 * index + 1]), 2.5);
+    }
+  }
+  const placed = placedWhole(cap);
+  if (placed?.kind === "circle") for (const point of rimPoints(placed)) squareAt(context, toScreen(view, ...point), 3);
+  paintHandles(context, "#ffffff");
+  if (!active) return;
+  context.beginPath();
+  if (active.kind === "vertex") {
+    const { ring, index } = active.vertices[0];
+    const points = ringsOf(cap)[ring];
+    if (points && 2 * index < points.length) {
+      squareAt(context, toScreen(view, points[2 * index], points[2 * index + 1]), 4);
+    }
+  } else if (placed) {
+    const at = /** @type {Point} */ (active.kind === "centre" ? [placed.cx, placed.cy] : [boundsOfWhole(placed).x1, placed.cy]);
+    squareAt(context, toScreen(view, ...at), 4);
+  }
+  paintHandles(context, COLOURS.mark);
+}
+
+/** @type {(context: Context, at: Point, half: number) => void} */
+function squareAt(context, [x, y], half) {
+  context.rect(x - half, y - half, 2 * half, 2 * half);
+}
+
+/** @type {(context: Context, colour: string) => void} */
+function paintHandles(context, colour) {
+  context.fillStyle = colour;
+  context.fill();
+  context.strokeStyle = "#0b1220";
+  context.lineWidth = 1;
+  context.stroke();
+}
+
+/** Whether a vertex of the cap has room for a handle of its own at this scale. @type {(shape: Shape, scale: number) => boolean} */
+export function handlesAreApart({ cap }, scale) {
+  const { bounds } = measure(cap);
+  if (!bounds) return false;
+  const count = ringsOf(cap).reduce((sum, ring) => sum + ring.length / 2, 0);
+  const around = 3 * Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0) * scale;
+  return around / Math.max(count, 1) >= HANDLE_GAP_PX;
+}

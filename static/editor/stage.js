@@ -1,0 +1,55 @@
+/**
+ * Where the editor lives in viser's page: over the 3D area, outside the element whose pointer events move
+ * viser's camera, below its floating panels. viser may build that area anew at any time.
+ *
+ * @module
+ */
+
+const HOST_ID = "fairyring-editor";
+
+/** The element everything of the editor is put into; the same one for the life of the page. @returns {HTMLElement} */
+export function createHost() {
+  const host = document.createElement("div");
+  host.id = HOST_ID;
+  host.tabIndex = 0;
+  host.setAttribute("role", "application");
+  host.setAttribute("aria-label", "Photo with the outlines of the caps. Press the question mark for the keys.");
+  return host;
+}
+
+/**
+ * Keeps the host in the 3D area and tells when the page holds a new token.
+ *
+ * @param {HTMLElement} host
+ * @param {(token: string) => void} onToken
+ */
+export function keepMounted(host, onToken) {
+  let token = "";
+  const look = () => {
+    mount(host);
+    const found = document.getElementById("fairyring-tab")?.dataset.token ?? "";
+    if (found && found !== token) onToken((token = found));
+  };
+  look();
+  new MutationObserver(look).observe(document.body, {
+    childList: true,
+    subtree: true,
+    attributes: true,
+    attributeFilter: ["data-token"],
+  });
+}
+
+/** @type {(host: HTMLElement) => void} */
+function mount(host) {
+  const scene = document.querySelector("canvas[data-engine]");
+  const stage = scene?.closest("[data-dock-root] > *") ?? null;
+  if (!stage || host.parentElement === stage) return;
+  stage.setAttribute("data-fairyring-stage", "");
+  stage.append(host);
+}
+
+/** @type {() => boolean} */
+export function hasWebGL() {
+  const canvas = document.createElement("canvas");
+  return Boolean(canvas.getContext("webgl2") ?? canvas.getContext("webgl"));
+}

@@ -1,0 +1,78 @@
+/**
+ * Which outbox is this tab's. Each tab writes its own; what a closed tab left behind is taken over by the
+ * next one that opens the project.
+ *
+ * @module
+ */
+
+import { Outbox, keysWith } from "./outbox.js";
+
+const ROOT = "fairyring:outbox:";
+
+/** @type {(project: string) => Promise<Outbox>} */
+export async function openOutbox(project) {
+  const storage = browserStorage();
+  const root = `${ROOT}${project}:`;
+  const own = `${root}${await ownName(root)}:`;
+  const outbox = new Outbox(storage, own);
+  const others = new Set(keysWith(storage, root).map((key) => key.slice(0, key.lastIndexOf(":") + 1)));
+  others.delete(own);
+  for (const prefix of others) {
+    if (await abandoned(prefix)) outbox.adopt(prefix);
+  }
+  return outbox;
+}
+
+/** @type {() => Storage | null} */
+function browserStorage() {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
+}
+
+/**
+ * A name that survives a reload of this tab. A duplicated tab finds the lock on its copy taken and makes
+ * a name of its own.
+ *
+ * @param {string} root
+ * @returns {Promise<string>}
+ */
+async function ownName(root) {
+  const remembered = sessionStorage.getItem(root);
+  if (remembered && (await lock(`${root}${remembered}:`))) return remembered;
+  const name = newId();
+  sessionStorage.setItem(root, name);
+  await lock(`${root}${name}:`);
+  return name;
+}
+
+/**
+ * Takes a lock for as long as the page lives. Where the browser has no locks every tab counts as alone:
+ * an edit that two tabs send is stored once all the same.
+ *
+ * @param {string} name
+ * @returns {Promise<boolean>}
+ */
+function lock(name) {
+  if (!navigator.locks) return Promise.resolve(true);
+  return new Promise((resolve) => {
+    void navigator.locks.request(name, { ifAvailable: true }, (taken) => {
+      resolve(taken !== null);
+      return taken && new Promise(() => {});
+    });
+  });
+}
+
+/** @type {(prefix: string) => Promise<boolean>} */
+async function abandoned(prefix) {
+  if (!navigator.locks) return true;
+  return navigator.locks.request(prefix, { ifAvailable: true }, (taken) => taken !== null);
+}
+
+/** An id nobody else has chosen. @returns {string} */
+export function newId() {
+  const bytes = crypto.getRandomValues(new Uint8Array(12));
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}

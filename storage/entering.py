@@ -1,0 +1,179 @@
+"""The second half of an import: the rows, all within one transaction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from msgspec import Struct, structs
+from sqlalchemy import Connection, Table, insert, select, update
+
+from model.geometry import polygon_of_shape
+from storage import schema
+from storage.clock import now
+from storage.counting import recount
+from storage.fitting import content_number
+from storage.formats.found import FoundCap
+from storage.images import sort_name
+from storage.placing import Photo
+from storage.predictions import saw
+from storage.rows import encode, ensure_category, load_categories, values_of_cap, values_of_fit
+
+CHUNK = 500
+"""Numbers asked for in one statement."""
+
+
+class Labelled(Struct, frozen=True, kw_only=True):
+    """A photo of the project and the checked caps to enter for it."""
+
+    photo: Photo
+    caps: Sequence[FoundCap]
+
+
+class Entered(Struct, frozen=True, kw_only=True):
+    """How many were new, and how many were there already."""
+
+    new: int = 0
+    known: int = 0
+
+
+def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
+    """Adds an image; returns it with its id."""
+    statement = insert(schema.image).values(
+        file_name=photo.file_name,
+        sort_name=sort_name(photo.file_name),
+        path=path,
+        width=photo.width,
+        height=photo.height,
+        sha256=photo.sha256,
+        light=photo.light,
+        form=photo.form,
+        split=photo.split,
+        status="new",
+        extra=photo.extra,
+        added_at=now(),
+    )
+    number = connection.execute(statement.returning(schema.image.c.id)).scalar_one()
+    return structs.replace(photo, id=number)
+
+
+def tell_more(connection: Connection, photo: Photo) -> None:
+    """Enters what an import has learnt about an image of the project."""
+    told = {name: getattr(photo, name) for name in ("light", "form", "split", "extra")}
+    connection.execute(update(schema.image).where(schema.image.c.id == photo.id).values(**told))
+
+
+def enter_annotations(
+    connection: Connection,
+    labelled: Sequence[Labelled],
+    *,
+    categories: Mapping[str, dict[str, Any]],
+    user: str,
+) -> Entered:
+    """Adds annotations and their first journal rows; those whose number is taken are there already."""
+    ids = _category_ids(connection, labelled, categories)
+    owners = _owners(connection, [cap.uid or "" for item in labelled for cap in item.caps])
+    annotations: list[dict[str, Any]] = []
+    edits: list[dict[str, Any]] = []
+    time = now()
+    for photo, cap in _pairs(labelled):
+        uid = _own_number(cap, photo, owners)
+        if uid in owners:
+            continue
+        owners[uid] = photo.id
+        visible, mark = encode(cap.cap.visible), cap.cap.mark and encode(cap.cap.mark)
+        annotations.append(
+            values_of_cap(cap.cap, categories=ids)
+            | values_of_fit(cap.whole, cap.centre, None)
+            | {"visible": visible, "mark": mark, "uid": uid, "image": photo.id, "revision": 1}
+            | {"deleted": False, "extra": cap.extra, "edited_by": user, "edited_at": time}
+        )
+        edits.append(
+            {"id": f"import-{uid}", "digest": "import", "annotation": uid, "image": photo.id, "base": 0}
+            | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
+        )
+    _insert(connection, schema.annotation, annotations)
+    _insert(connection, schema.edit, edits)
+    recount(connection, {row["image"] for row in annotations})
+    total = sum(len(item.caps) for item in labelled)
+    return Entered(new=len(annotations), known=total - len(annotations))
+
+
+def enter_predictions(
+    connection: Connection,
+    labelled: Sequence[Labelled],
+    *,
+    categories: Mapping[str, dict[str, Any]],
+    run_id: int,
+) -> Entered:
+    """Adds what a run saw; what it holds already is not added again."""
+    ids = _category_ids(connection, labelled, categories)
+    rows: list[dict[str, Any]] = []
+    table = schema.prediction
+    present = {
+        (image, uid)
+        for image, uid in connection.execute(select(table.c.image, table.c.uid).where(table.c.run == run_id))
+    }
+    for photo, cap in _pairs(labelled):
+        if (photo.id, cap.uid) in present:
+            continue
+        present.add((photo.id, cap.uid or ""))
+        rows.append(
+            values_of_fit(cap.whole, cap.centre, None)
+            | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
+            | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
+        )
+    _insert(connection, table, rows)
+    saw(connection, run_id=run_id, image_ids=[item.photo.id for item in labelled if item.photo.id])
+    total = sum(len(item.caps) for item in labelled)
+    return Entered(new=len(rows), known=total - len(rows))
+
+
+def refused_as_prediction(cap: FoundCap) -> str | None:
+    """Why a cap of a file cannot be a prediction, if so."""
+    if cap.cap.ignored:
+        return "It is to be ignored, which a prediction cannot be; it was left out."
+    if cap.score is not None and not 0 <= cap.score <= 1:
+        return f"Its score of {cap.score:g} does not lie between 0 and 1."
+    return None
+
+
+def _pairs(labelled: Iterable[Labelled]) -> Iterator[tuple[Photo, FoundCap]]:
+    return ((item.photo, cap) for item in labelled for cap in item.caps)
+
+
+def _category_ids(
+    connection: Connection, labelled: Iterable[Labelled], categories: Mapping[str, dict[str, Any]]
+) -> dict[str, int]:
+    ids = load_categories(connection)
+    for name in sorted({cap.cap.category for _, cap in _pairs(labelled)}):
+        ensure_category(connection, name, categories=ids, extra=categories.get(name, {}))
+    return ids
+
+
+def _owners(connection: Connection, uids: Sequence[str]) -> dict[str, int | None]:
+    """Which of these numbers are taken, and by which image."""
+    table = schema.annotation
+    owners: dict[str, int | None] = {}
+    for start in range(0, len(uids), CHUNK):
+        asked = select(table.c.uid, table.c.image).where(table.c.uid.in_(uids[start : start + CHUNK]))
+        owners.update(connection.execute(asked).tuples().all())
+    return owners
+
+
+def _own_number(cap: FoundCap, photo: Photo, owners: Mapping[str, int | None]) -> str:
+    """The number of the file, unless a cap in another photo has it."""
+    uid = cap.uid or ""
+    return uid if owners.get(uid, photo.id) == photo.id else content_number(cap.cap, photo=photo)
+
+
+def _seen(cap: FoundCap) -> Any:
+    """A prediction has a visible outline: where a file gives only a shape, that of the shape."""
+    if cap.cap.visible or cap.whole is None:
+        return encode(cap.cap.visible)
+    return encode([polygon_of_shape(cap.whole)])
+
+
+def _insert(connection: Connection, table: Table, rows: list[dict[str, Any]]) -> None:
+    if rows:
+        connection.execute(insert(table), rows)

@@ -1,0 +1,178 @@
+"""Writes what a project holds into a folder that other programs read."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal
+from uuid import uuid4
+
+import cv2
+import msgspec
+from msgspec import Struct
+from sqlalchemy import Connection, func, select
+
+from model.photo import probe, read
+from storage import schema
+from storage.documents import load_annotations, load_document, load_predictions
+from storage.errors import StoreError
+from storage.formats.coco_writing import (
+    annotation_entry,
+    category_entry,
+    image_entry,
+    prediction_entry,
+    write_document,
+)
+from storage.formats.found import Progress
+from storage.predictions import latest_run
+from storage.project import Project
+from storage.records import Annotation, Image, Prediction
+from storage.rows import image_of
+
+Only = Literal["annotated", "approved", "predicted", "all"]
+Cap = Annotation | Prediction
+JPEG_QUALITY = 97
+
+
+class ExportReport(Struct, frozen=True, kw_only=True):
+    """What was written."""
+
+    images: int
+    annotations: int
+    """Predictions too, where they were asked for."""
+
+
+def export_coco(
+    project: Project,
+    out: Path,
+    *,
+    only: Only = "annotated",
+    with_ignored: bool = False,
+    progress: Progress | None = None,
+) -> ExportReport:
+    """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
+
+    The state is that of the moment at which the export began. Photos are copied as they are; one that is
+    turned by EXIF is written upright, as its coordinates are.
+
+    Args:
+        project: whence.
+        out: a new or an empty folder.
+        only: images with annotations or marked as done (annotated), approved ones, those of the latest run
+            with its predictions (predicted), or all: annotations, and predictions where there are none.
+        with_ignored: keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``.
+        progress: called once an image; what it raises ends the export, leaving nothing behind.
+
+    Raises:
+        StoreError: ``out`` holds something or cannot be written, or a photo is gone.
+    """
+    report = progress or (lambda _done, _total, _what: None)
+    with project.read() as connection, _made_at_once(out) as folder:
+        images = _images(connection, only)
+        (folder / "images").mkdir()
+        for done, image in enumerate(images):
+            report(done, len(images), "Copying photos")
+            _copy(project.folder / image.path, folder / "images" / image.file_name)
+        categories = {row.name: row.extra for row in connection.execute(_CATEGORIES)}
+        licenses: list[dict[str, Any]] = []
+        head = {
+            "info": _info(connection, project, only),
+            "licenses": licenses,
+            "categories": [
+                category_entry(name, extra, number=number)
+                for number, (name, extra) in enumerate(categories.items(), start=1)
+            ],
+            "images": [
+                image_entry(image, number=number, licenses=licenses)
+                for number, image in enumerate(images, start=1)
+            ],
+        }
+        caps = _caps(connection, images, only=only, with_ignored=with_ignored, progress=report)
+        numbers = {name: number for number, name in enumerate(categories, start=1)}
+        with (folder / "instances.json").open("wb") as file:
+            count = write_document(file, head, _entries(caps, numbers))
+    return ExportReport(images=len(images), annotations=count)
+
+
+_CATEGORIES = select(schema.category.c.name, schema.category.c.extra).order_by(schema.category.c.id)
+
+
+def _images(connection: Connection, only: Only) -> list[Image]:
+    image = schema.image
+    wanted = {
+        "annotated": (image.c.status != "new") | (image.c.caps + image.c.ignored > 0),
+        "approved": image.c.status == "approved",
+        "predicted": image.c.run == select(func.max(schema.run.c.id)).scalar_subquery(),
+        "all": image.c.id > 0,
+    }[only]
+    statement = select(image).where(wanted).order_by(image.c.sort_name, image.c.id)
+    return [image_of(row) for row in connection.execute(statement)]
+
+
+def _caps(
+    connection: Connection, images: list[Image], *, only: Only, with_ignored: bool, progress: Progress
+) -> Iterator[tuple[int, Cap]]:
+    load = _loader(connection, only)
+    for number, image in enumerate(images, start=1):
+        progress(number - 1, len(images), "Writing labels")
+        for cap in load(image):
+            if with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
+                yield number, cap
+
+
+def _loader(connection: Connection, only: Only) -> Callable[[Image], list[Any]]:
+    if only == "predicted":
+        return lambda image: load_predictions(connection, image.id)
+    if only != "all":
+        return lambda image: load_annotations(connection, image.id)
+
+    def load(image: Image) -> list[Any]:
+        document = load_document(connection, image.id)
+        return document.annotations if document.annotations or image.status != "new" else document.predictions
+
+    return load
+
+
+def _entries(caps: Iterator[tuple[int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+    for number, (image, cap) in enumerate(caps, start=1):
+        if isinstance(cap, Annotation):
+            category = categories[cap.cap.category]
+            yield annotation_entry(cap, number=number, image=image, category=category)
+        else:
+            category = categories[cap.category]
+            yield prediction_entry(cap, number=number, image=image, category=category)
+
+
+def _info(connection: Connection, project: Project, only: Only) -> dict[str, Any]:
+    info: dict[str, Any] = {"description": project.name, "exported": only}
+    run = latest_run(connection) if only in ("predicted", "all") else None
+    return info | ({"run": msgspec.to_builtins(run)} if run else {})
+
+
+@contextmanager
+def _made_at_once(out: Path) -> Iterator[Path]:
+    """A folder beside ``out`` that takes its name when all is written, and vanishes if anything fails."""
+    if out.exists() and (not out.is_dir() or any(out.iterdir())):
+        raise StoreError(f"{out} is not empty; name a new or an empty folder for the export.")
+    folder = out.with_name(f".{out.name}.{uuid4().hex}")
+    try:
+        folder.mkdir(parents=True)
+        yield folder
+        folder.replace(out)
+    except OSError as error:
+        raise StoreError(f"{out} cannot be written: {error.strerror}.") from error
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _copy(source: Path, target: Path) -> None:
+    if not source.is_file():
+        raise StoreError(f"{source} is gone; put the photo back before exporting.")
+    if probe(source).orientation == 1:
+        shutil.copyfile(source, target)
+        return
+    suffix = target.suffix.lower() or ".png"
+    _, encoded = cv2.imencode(suffix, read(source), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    target.write_bytes(encoded.tobytes())

@@ -1,0 +1,103 @@
+"""Checks the caps a file holds against the photo they belong to."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from hashlib import blake2b
+
+import msgspec
+from msgspec import structs
+
+from model.errors import FairyringError
+from model.geometry import Circle, Ellipse, GeometryError, area_of_outline
+from model.raster import check_mark, check_outline
+from storage.checking import check_cap
+from storage.errors import StoreError
+from storage.formats.found import FoundCap, Problem
+from storage.placing import Photo
+from storage.records import Cap, Outline, Shape
+
+SAME_CENTRE = 0.5
+"""Pixels by which ``center`` may differ from the shape's centre without a word (files are rounded)."""
+OWN_NUMBER = re.compile(r"[A-Za-z0-9_-]{1,64}")
+
+
+def fit_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[list[FoundCap], list[Problem]]:
+    """The caps that can be stored, each with a number of its own, and what is wrong with the others."""
+    good: list[FoundCap] = []
+    problems: list[Problem] = []
+    for cap in caps:
+        try:
+            fitted, left_out = _fit(cap, photo)
+        except FairyringError as error:
+            problems.append(Problem(file, cap.where, str(error)))
+            continue
+        good.append(fitted)
+        problems += [Problem(file, cap.where, reason) for reason in left_out]
+    return good, problems
+
+
+def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
+    if found.rle_size not in (None, (photo.height, photo.width)):
+        height, width = found.rle_size or (0, 0)
+        raise StoreError(f"The RLE is {width} × {height}, the photo {photo.width} × {photo.height} pixels.")
+    cap, remarks = _checked(found.cap, photo)
+    if found.marked and cap.mark is None and found.centre is not None:
+        cap = structs.replace(cap, mark=_mark_around(found.centre, cap.visible))
+    mark = cap.mark
+    if isinstance(mark, Circle | Ellipse):
+        whole, centre = mark, (mark.cx, mark.cy)
+        remarks += _remarks_on_centre(found, centre)
+    else:
+        whole = _checked_shape(found.whole, photo)
+        centre = found.centre or (whole.cx, whole.cy) if whole else None
+    own = found.uid if found.uid and OWN_NUMBER.fullmatch(found.uid) else None
+    uid = own or content_number(cap, photo=photo)
+    return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid), remarks
+
+
+def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str]:
+    apart = math.dist(found.centre or centre, centre)
+    if apart <= SAME_CENTRE:
+        return []
+    return [f"Its center lies {apart:.1f} px from that of its circle or ellipse, which was taken."]
+
+
+def content_number(cap: Cap, *, photo: Photo) -> str:
+    """The same outline and mark in the same photo always get the same number."""
+    content = msgspec.json.encode((photo.sha256, cap.visible, cap.mark))
+    return blake2b(content, digest_size=16).hexdigest()
+
+
+def _checked(cap: Cap, photo: Photo) -> tuple[Cap, list[str]]:
+    """Where only some parts of an outline are bad, the others are kept and the bad ones named."""
+    try:
+        return check_cap(cap, width=photo.width, height=photo.height), []
+    except GeometryError:
+        if not isinstance(cap.visible, list) or len(cap.visible) < 2:
+            raise
+    good: Outline = []
+    left_out: list[str] = []
+    for index, part in enumerate(cap.visible):
+        try:
+            good += check_outline([part], width=photo.width, height=photo.height)
+        except GeometryError as error:
+            left_out.append(f"Part {index + 1} was left out: {error}")
+    if not good:
+        raise GeometryError(left_out[0])
+    return check_cap(structs.replace(cap, visible=good), width=photo.width, height=photo.height), left_out
+
+
+def _checked_shape(shape: Shape | None, photo: Photo) -> Shape | None:
+    if shape is not None:
+        check_mark(shape, width=photo.width, height=photo.height)
+    return shape
+
+
+def _mark_around(centre: tuple[float, float], visible: Outline) -> Circle:
+    """A file that gives a centre alone gets the circle of the visible outline's area around it."""
+    if not visible:
+        raise StoreError("A center without an outline, circle or ellipse is no cap.")
+    return Circle(*centre, math.sqrt(area_of_outline(visible) / math.pi))

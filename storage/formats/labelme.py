@@ -1,0 +1,111 @@
+"""Reads labelme's JSON: one file an image, polygons and circles.
+
+A polygon was placed by hand: it is the visible outline and the mark. A circle is exactly two points, the
+centre and one on the rim: a mark without a visible outline. Shapes of one ``group_id`` and label are one
+cap: polygons are its parts, a circle its mark.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from model.geometry import Circle, Polygon
+from storage.checking import MAX_NAME
+from storage.errors import StoreError
+from storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
+from storage.formats.values import number, numbers, read_json, size
+from storage.records import Cap, Mark
+
+SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
+IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "imageWidth"}
+
+
+def parse_labelme(data: bytes, *, file: str) -> Found:
+    """All a labelme file says.
+
+    Raises:
+        StoreError: it is not a labelme file at all. What is wrong with single shapes is in ``problems``.
+    """
+    document = read_json(data, file=file)
+    if not isinstance(document, dict) or not isinstance(document.get("shapes"), list):
+        raise StoreError(f"{file} is not a labelme file: it has no list of shapes.")
+    if not isinstance(document.get("imagePath"), str):
+        raise StoreError(f"{file} does not name its image; set imagePath.")
+    problems: list[Problem] = []
+    shapes = list(_shapes(document["shapes"], problems, file=file))
+    try:
+        image = FoundImage(
+            where="image",
+            file_name=document["imagePath"],
+            width=size(document.get("imageWidth"), "imageWidth"),
+            height=size(document.get("imageHeight"), "imageHeight"),
+            extra={key: value for key, value in document.items() if key not in IMAGE_KEYS},
+            caps=[_cap(group) for group in _grouped(shapes)],
+        )
+    except UnusableError as error:
+        raise StoreError(f"{file}: {error} Put it right, or export the file anew.") from error
+    return Found(file=file, images=[image], problems=problems)
+
+
+class _Shape:
+    """One usable shape."""
+
+    def __init__(self, entry: Any, where: str) -> None:
+        if not isinstance(entry, dict) or not isinstance(entry.get("points"), list):
+            raise UnusableError("It has no points.")
+        label, group = entry.get("label"), entry.get("group_id")
+        if not isinstance(label, str) or not label.isprintable() or not 0 < len(label) <= MAX_NAME:
+            raise UnusableError("The label is not a short line of text.")
+        self.where = where
+        self.label = label
+        self.group = group if type(group) in (int, str) else None
+        self.geometry = _geometry(entry)
+        self.extra = {key: value for key, value in entry.items() if key not in SHAPE_KEYS and value}
+
+
+def _geometry(entry: dict[str, Any]) -> Circle | Polygon:
+    points = [numbers(point, "A point", count=2) for point in entry["points"]]
+    kind = entry.get("shape_type", "polygon")
+    if kind == "polygon":
+        return Polygon([coordinate for point in points for coordinate in point])
+    if kind != "circle":
+        raise UnusableError(f"Shapes of type {kind!r:.40} are not known here; draw a polygon or a circle.")
+    if len(points) != 2:
+        raise UnusableError(f"A circle is two points, its centre and one on its rim; this has {len(points)}.")
+    (cx, cy), (x, y) = points
+    return Circle(cx, cy, number(math.hypot(x - cx, y - cy), "The radius"))
+
+
+def _shapes(entries: list[Any], problems: list[Problem], *, file: str) -> Iterable[_Shape]:
+    for index, entry in enumerate(entries):
+        try:
+            yield _Shape(entry, f"shape {index + 1}")
+        except UnusableError as error:
+            problems.append(Problem(file, f"shape {index + 1}", str(error)))
+
+
+def _grouped(shapes: Iterable[_Shape]) -> list[list[_Shape]]:
+    groups: dict[Any, list[_Shape]] = {}
+    for index, shape in enumerate(shapes):
+        key = index if shape.group is None else (shape.label, shape.group)
+        groups.setdefault(key, []).append(shape)
+    return [part for group in groups.values() for part in _as_caps(group)]
+
+
+def _as_caps(group: list[_Shape]) -> list[list[_Shape]]:
+    """Some people group what grows together: with two circles a group is certainly not one cap."""
+    circles = sum(isinstance(shape.geometry, Circle) for shape in group)
+    return [group] if circles < 2 else [[shape] for shape in group]
+
+
+def _cap(group: list[_Shape]) -> FoundCap:
+    polygons = [shape.geometry for shape in group if isinstance(shape.geometry, Polygon)]
+    circles = [shape.geometry for shape in group if isinstance(shape.geometry, Circle)]
+    mark: Mark | None = circles[0] if circles else polygons[0] if len(polygons) == 1 else None
+    return FoundCap(
+        where=group[0].where,
+        cap=Cap(visible=[polygon.points for polygon in polygons], mark=mark, category=group[0].label),
+        extra=group[0].extra,
+    )

@@ -1,0 +1,138 @@
+"""The first half of an import: everything is read and checked, and nothing is changed yet."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from msgspec import Struct, field, structs
+
+from model.errors import FairyringError
+from storage.errors import StoreError
+from storage.fitting import fit_caps
+from storage.formats.found import FoundCap, FoundImage, Problem, Progress, UnusableError
+from storage.formats.values import base_name
+from storage.placing import Photo, examine, find_beside
+from storage.sources import Document, Sources
+
+
+class Intake(Struct, kw_only=True):
+    """What has passed, and what has not."""
+
+    photos: dict[str, Photo]
+    """Those of the project and the new ones, by base name."""
+    seen: set[str] = field(default_factory=set)
+    """Names of the photos this import speaks of."""
+    caps: dict[str, list[FoundCap]] = field(default_factory=dict)
+    """Checked against their photo, by its name."""
+    problems: list[Problem] = field(default_factory=list)
+
+    @property
+    def new_photos(self) -> list[Photo]:
+        """Those the project lacks, in the order of the import."""
+        return [photo for photo in self.photos.values() if photo.id is None]
+
+
+def take_in(
+    sources: Sources, *, known: dict[str, Photo], light: str | None, form: str | None, progress: Progress
+) -> Intake:
+    """Checks every photo, and every cap against its photo.
+
+    Args:
+        sources: what was gathered.
+        known: the photos of the project.
+        light: of new photos whose file does not say.
+        form: of new photos whose file does not say.
+        progress: called once a photo.
+    """
+    intake = Intake(photos=dict(known), problems=list(sources.problems))
+    tasks: list[tuple[str, str, Callable[[], None]]] = [
+        (str(path), "", lambda path=path: _take_photo(intake, path, light=light, form=form))
+        for path in sources.photos
+    ]
+    for document in sources.documents:
+        intake.problems.extend(document.found.problems)
+        tasks += [
+            (
+                str(document.path),
+                image.where,
+                lambda document=document, image=image: _take_labels(
+                    intake, document, image, light=light, form=form
+                ),
+            )
+            for image in document.found.images
+        ]
+    for done, (file, where, take) in enumerate(tasks):
+        progress(done, len(tasks), "Checking")
+        try:
+            take()
+        except (FairyringError, UnusableError) as error:
+            intake.problems.append(Problem(file, where, str(error).removeprefix(f"{file}: ")))
+    return intake
+
+
+def _take_photo(intake: Intake, path: Path, *, light: str | None, form: str | None) -> None:
+    _add(intake, structs.replace(examine(path), light=light, form=form))
+
+
+def _add(intake: Intake, photo: Photo) -> Photo:
+    other = intake.photos.get(photo.file_name)
+    if other is not None and other.sha256 != photo.sha256:
+        raise StoreError(f"Another image is called {photo.file_name} already; rename one of them.")
+    intake.seen.add(photo.file_name)
+    return intake.photos.setdefault(photo.file_name, photo)
+
+
+def _take_labels(
+    intake: Intake, document: Document, image: FoundImage, *, light: str | None, form: str | None
+) -> None:
+    photo = _photo_of(intake, document.path, image)
+    intake.photos[photo.file_name] = _told_more(photo, image, light=light, form=form)
+    intake.seen.add(photo.file_name)
+    caps, problems = fit_caps(image.caps, photo=photo, file=str(document.path))
+    intake.caps.setdefault(photo.file_name, []).extend(caps)
+    intake.problems.extend(problems)
+
+
+def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str | None) -> Photo:
+    """Adds what a file says of a photo; what the project knows already is not changed by an import."""
+    if photo.id is None:
+        return structs.replace(
+            photo,
+            light=image.light or photo.light or light,
+            form=image.form or photo.form or form,
+            split=image.split or photo.split,
+            extra=photo.extra | image.extra,
+        )
+    return structs.replace(
+        photo,
+        light=photo.light or image.light,
+        form=photo.form or image.form,
+        split=photo.split or image.split,
+        extra=image.extra | photo.extra,
+    )
+
+
+def _photo_of(intake: Intake, document: Path, image: FoundImage) -> Photo:
+    """In the project by base name and size, then beside the file, then in ``images/`` beside it."""
+    name = base_name(image.file_name)
+    photo = intake.photos.get(name)
+    if photo is not None and _has_size(photo, image):
+        return photo
+    beside = find_beside(document, name)
+    if beside is not None:
+        found = examine(beside)
+        if _has_size(found, image):
+            return _add(intake, found)
+    if beside is None and photo is None:
+        raise StoreError(f"{name} is neither in the project nor beside this file nor in images/ beside it.")
+    actual = photo or examine(beside) if beside else photo
+    assert actual is not None, "one of the two was found"
+    raise StoreError(
+        f"{name} is {actual.width} × {actual.height} pixels when upright, "
+        f"but this file says {image.width} × {image.height}."
+    )
+
+
+def _has_size(photo: Photo, image: FoundImage) -> bool:
+    return image.width in (None, photo.width) and image.height in (None, photo.height)

@@ -1,0 +1,101 @@
+"""Which files an import reads: the paths a person named, and what lies in folders among them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Literal
+
+from msgspec import Struct, field
+
+from storage.errors import StoreError
+from storage.formats.coco import parse_coco
+from storage.formats.found import Found, Problem
+from storage.formats.labelme import parse_labelme
+
+Format = Literal["auto", "images", "coco", "labelme"]
+
+PHOTO_SUFFIXES = {".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".bmp", ".webp"}
+ARCHIVE_SUFFIXES = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"}
+
+
+class Document(Struct, frozen=True, kw_only=True):
+    """A file of labels that could be read."""
+
+    path: Path
+    sha256: str
+    found: Found
+
+
+class Sources(Struct, frozen=True, kw_only=True):
+    """What there is to import."""
+
+    photos: list[Path] = field(default_factory=list)
+    documents: list[Document] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+
+
+def gather(paths: Sequence[Path], *, kind: Format) -> Sources:
+    """Reads the label files and lists the photos.
+
+    Folders are searched to the bottom, in the order of names; hidden files and symbolic links in them
+    are passed over.
+
+    Raises:
+        StoreError: a path does not exist, or is an archive.
+    """
+    sources = Sources()
+    for path in paths:
+        if path.suffix.lower() in ARCHIVE_SUFFIXES:
+            raise StoreError(f"{path} is an archive; unpack it and import the folder.")
+        if path.is_dir():
+            for file in _files_below(path):
+                _take(file, sources, kind=kind, named=False)
+        elif path.exists():
+            _take(path, sources, kind=kind, named=True)
+        else:
+            raise StoreError(f"{path} does not exist; check the path.")
+    return sources
+
+
+def _files_below(folder: Path) -> Iterator[Path]:
+    for parent, folders, files in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(files):
+            file = Path(parent) / name
+            if not name.startswith(".") and not file.is_symlink():
+                yield file
+
+
+def _take(file: Path, sources: Sources, *, kind: Format, named: bool) -> None:
+    is_document = file.suffix.lower() == ".json" or (named and kind in ("coco", "labelme"))
+    if is_document and kind != "images":
+        _read(file, sources, kind=kind)
+    elif kind in ("auto", "images") and (named or file.suffix.lower() in PHOTO_SUFFIXES):
+        sources.photos.append(file)
+    elif named:
+        sources.problems.append(Problem(str(file), "", f"This is no file of the format {kind}."))
+
+
+def _read(file: Path, sources: Sources, *, kind: Format) -> None:
+    try:
+        data = file.read_bytes()
+        found = _parse(data, file=str(file), kind=kind)
+        sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
+    except StoreError as error:
+        sources.problems.append(Problem(str(file), "", str(error).removeprefix(f"{file}: ")))
+    except OSError as error:
+        sources.problems.append(Problem(str(file), "", f"It cannot be read: {error.strerror}."))
+
+
+def _parse(data: bytes, *, file: str, kind: Format) -> Found:
+    if kind == "labelme" or (kind == "auto" and _looks_like_labelme(data)):
+        return parse_labelme(data, file=file)
+    return parse_coco(data, file=file)
+
+
+def _looks_like_labelme(data: bytes) -> bool:
+    """A peek: labelme files have shapes, COCO files have annotations."""
+    return b'"shapes"' in data and b'"annotations"' not in data
