@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Image, shape_caps, Cap
+from model.scene.caps import Cap, Image, shape_caps
 from model.scene.growth import Rectangle, Stand, grow
-from model.scene.layers import Layer, Owners, own_pixels, pile_up, stack_layers, window
+from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, window
 from model.scene.lens import draw_shot, expose
 from model.scene.light import Light, Shade, cast_shade, draw_light, shine
 from model.scene.presets import with_form
@@ -21,7 +21,7 @@ from model.scene.stalks import shape_stalks
 from model.scene.truth import BedCap, tell_truth
 from model.scene.view import View, bounds_of_ground, hang_camera, see_ground
 
-FLESH_GLOW = 0.35
+FLESH_GLOW = 0.18
 SOIL_GLOW = 0.05
 
 
@@ -44,7 +44,7 @@ class _Planted(NamedTuple):
 
     stand: Stand
     caps: list[Cap]
-    layers: list[Layer]
+    seen: list[Seen]
     owners: Owners
 
 
@@ -65,10 +65,10 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     ground = see_ground(view)
     planted = _plant(settings, view, _fertile(bounds_of_ground(ground), sowing), rng)
     bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
-    z = pile_up(planted.layers, planted.owners, bare.z)
-    lit = _lit(planted, bare, light, cast_shade(z, light), settings, rng)
+    z = pile_up(planted.seen, planted.owners, bare.z)
+    lit = _lit(planted, bare, light, cast_shade(z, planted.owners != 0, light), settings, rng)
     image = expose(lit, z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
-    told = tell_truth(planted.caps, planted.layers, planted.owners)
+    told = tell_truth(planted.caps, planted.seen, planted.owners)
     return Bed(image, told, planted.owners, source, form, shot.jpeg)
 
 
@@ -97,7 +97,7 @@ def _plant(settings: Settings, view: View, fertile: Rectangle, rng: np.random.Ge
     left, top, right, bottom = fertile
     around = (left - margin, top - margin, right + margin, bottom + margin)
     surplus = (around[2] - around[0]) * (around[3] - around[1]) / ((right - left) * (bottom - top))
-    count = math.ceil(1.12 * wanted * surplus)
+    count = math.ceil(1.25 * wanted * surplus)
     while True:
         stand = grow(growth, count=count, ground=around, rng=rng)
         caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
@@ -109,7 +109,8 @@ def _plant(settings: Settings, view: View, fertile: Rectangle, rng: np.random.Ge
         count = math.ceil(1.2 * count)
     kept = set(rng.permutation(in_sight)[:wanted].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
-    return _Planted(stand, caps, left_over, own_pixels(left_over, width=view.width, height=view.height))
+    owners = own_pixels(left_over, width=view.width, height=view.height)
+    return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
 
 
 def _lit(
@@ -120,23 +121,22 @@ def _lit(
     everything = (0, 0, columns, rows)
     picture = shine(bare.colour, bare.normal, bare.z, box=everything, light=light, shade=shade, glow=SOIL_GLOW)
     brown = rng.uniform(*settings.skin.brown)
-    for layer in planted.layers:
+    for part in planted.seen:
         own = float(np.clip(brown * rng.normal(1, 0.12), 0, 1))
-        dress = _dressed(layer, planted.caps[layer.mushroom], settings, own, rng)
-        _lay(picture, layer, dress, light, shade)
+        dress = _dressed(part, planted.caps[part.layer.mushroom], settings, own, rng)
+        _lay(picture, part, dress, light, shade)
     return picture
 
 
-def _dressed(layer: Layer, cap: Cap, settings: Settings, brown: float, rng: np.random.Generator) -> Dress:
-    if layer.is_cap:
-        return dress_cap(cap, layer.surface, settings.skin, brown=brown, rng=rng)
-    return dress_stalk(layer.surface, brown=brown, rng=rng)
+def _dressed(part: Seen, cap: Cap, settings: Settings, brown: float, rng: np.random.Generator) -> Dress:
+    if part.layer.is_cap:
+        return dress_cap(cap, part.surface, settings.skin, brown=brown, rng=rng)
+    return dress_stalk(part.surface, brown=brown, rng=rng)
 
 
-def _lay(picture: Image, layer: Layer, dress: Dress, light: Light, shade: Shade) -> None:
-    normal = bend_normals(layer.surface.normal, dress.relief.astype(np.float32))
-    lit = shine(
-        dress.colour, normal, layer.surface.z, box=layer.box, light=light, shade=shade, glow=FLESH_GLOW
-    )
-    here = window(layer.box)
-    picture[here] += (lit - picture[here]) * layer.surface.cover[..., None]
+def _lay(picture: Image, part: Seen, dress: Dress, light: Light, shade: Shade) -> None:
+    surface = part.surface
+    normal = bend_normals(surface.normal, dress.relief.astype(np.float32))
+    lit = shine(dress.colour, normal, surface.z, box=part.box, light=light, shade=shade, glow=FLESH_GLOW)
+    here = window(part.box)
+    picture[here] += (lit - picture[here]) * surface.cover[..., None]

@@ -7,6 +7,7 @@ direction from the middle by a factor of its own, outline and surface alike.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -97,7 +98,7 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
     egg = _egg(np.array([cap.axis]), np.array([cap.dome]), np.array([cap.base]))[0]
     shrink = _around(egg, angle) / reach
 
-    sine = np.hypot(cap.axis[0], cap.axis[1])
+    sine = math.hypot(cap.axis[0], cap.axis[1])
     cosine = max(cap.axis[2], 0.05)
     toward_x, toward_y = (cap.axis[0] / sine, cap.axis[1] / sine) if sine > 1e-6 else (1.0, 0.0)
     along = (dx * toward_x + dy * toward_y) * shrink
@@ -120,7 +121,7 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
             np.maximum(steep * cosine - out * sine, 0.02),
         ]
     )
-    normal /= np.sqrt((normal * normal).sum(axis=2, keepdims=True))
+    normal /= np.sqrt(np.einsum("rcx,rcx->rc", normal, normal))[..., None]
     size = np.float32(cap.radius)
     return Surface(
         cover=np.clip(reach - distance + 0.5, 0, 1).astype(np.float32),

@@ -17,6 +17,8 @@ Rectangle = tuple[float, float, float, float]
 """left, top, right, bottom on the bed."""
 
 SETTLING_STEPS = 36
+TRIALS = 5
+"""Places every cap may come up in, of which it takes the roomiest."""
 FLATNESS = 0.75
 """A cap is lower than it is wide, so two meet above each other sooner than their radii say."""
 
@@ -68,31 +70,32 @@ def _draw_diameters(growth: Growth, count: int, rng: np.random.Generator) -> Flo
 
 
 def _sprout(growth: Growth, radius: Floats, ground: Rectangle, rng: np.random.Generator) -> Floats:
-    """(n, 2) feet: each cap comes up beside an earlier one of its cluster, in any direction."""
+    """(n, 2) feet: each cap comes up beside an earlier one of its cluster, where there is most room."""
     left, top, right, bottom = ground
-    foot = np.zeros((len(radius), 2))
-    founders: list[int] = []
-    start = 0
-    while start < len(radius):
-        end = min(start + int(rng.geometric(1 / growth.cluster)), len(radius))
-        trials = rng.uniform((left, top), (right, bottom), (6, 2))
-        foot[start] = _loneliest(trials, foot[founders])
-        founders.append(start)
-        for cap in range(start + 1, end):
-            parent = int(rng.integers(start, cap))
-            angle = rng.uniform(0, 2 * np.pi)
-            distance = growth.spread * (radius[cap] + radius[parent]) * rng.uniform(0.7, 1.3)
-            foot[cap] = foot[parent] + distance * np.array([np.cos(angle), np.sin(angle)])
-        start = end
+    count = len(radius)
+    foot = np.zeros((count, 2))
+    founder = 0
+    while founder < count:
+        end = min(founder + int(rng.geometric(1 / growth.cluster)), count)
+        for cap in range(founder, end):
+            if cap == founder:
+                trials = rng.uniform((left, top), (right, bottom), (2, 2))
+            else:
+                parent = rng.integers(founder, cap, TRIALS)
+                angle = rng.uniform(0, 2 * np.pi, TRIALS)
+                apart = growth.spread * (radius[cap] + radius[parent]) * rng.uniform(0.75, 1.25, TRIALS)
+                trials = foot[parent] + apart[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+            foot[cap] = _roomiest(trials, foot[:cap], radius[:cap])
+        founder = end
     return foot
 
 
-def _loneliest(trials: Floats, taken: Floats) -> Floats:
-    """The trial furthest from its nearest neighbour, so that clusters do not all come up in one place."""
-    if len(taken) == 0:
+def _roomiest(trials: Floats, foot: Floats, radius: Floats) -> Floats:
+    """The trial furthest from the nearest cap that stands already."""
+    if len(foot) == 0:
         return trials[0]
-    distance = np.linalg.norm(trials[:, None] - taken[None], axis=2).min(axis=1)
-    return trials[distance.argmax()]
+    room = np.linalg.norm(trials[:, None] - foot[None], axis=2) - radius
+    return trials[room.min(axis=1).argmax()]
 
 
 def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:

@@ -81,7 +81,7 @@ def _noise(seen: Image, amount: float, rng: np.random.Generator) -> Image:
     grey = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
     coarse = rng.standard_normal((rows // 2, columns // 2, 3), np.float32)
     colour = cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
-    strength = np.sqrt(np.maximum(seen[..., 1], 0) * np.float32(6e-5) + np.float32(4e-6)) * np.float32(amount)
+    strength = np.sqrt(np.maximum(seen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7)) * np.float32(amount)
     return (2.0 * grey[..., None] + 0.6 * colour) * strength[..., None]
 
 

@@ -18,6 +18,11 @@ OCCLUDERS = ((4.0, 0.40), (13.0, 0.38), (40.0, 0.42))
 """Reach of what shuts out the sky, px, and how much of it that may shut out."""
 
 
+FLESH = np.array([0.66, 0.78, 0.80], np.float32)
+"""What caps send on of the light that falls on them."""
+FLESH_REACH = 22.0
+
+
 class Light(NamedTuple):
     """One image's light; colours are linear, blue first."""
 
@@ -31,6 +36,8 @@ class Light(NamedTuple):
     """Half the light's angular size, radians."""
     slant: float
     """Share of the key lost across the picture, away from the light."""
+    height: float
+    """How high over the soil it hangs, px: what stands nearer to it is brighter."""
     dimness: float
     """How much more noise the sensor makes of it: 1 in good light."""
 
@@ -44,14 +51,16 @@ class Shade(NamedTuple):
     """Mean z around, one for each of OCCLUDERS."""
     gain: Image
     """Share of the key that reaches each place."""
+    flesh: Image
+    """Share of caps and stalks in what is around."""
 
 
 def draw_light(source: LightSource, rng: np.random.Generator) -> Light:
     """A light of one of the three kinds."""
-    azimuth, lift, warmth, slant, power = rng.random(5)
+    azimuth, lift, warmth, slant, power, nearness = rng.random(6)
     elevation = np.radians({"top": 58 + 26 * lift, "side": 17 + 17 * lift, "dark": 40 + 40 * lift}[source])
-    level = {"top": 0.80 + 0.2 * power, "side": 0.95 + 0.3 * power, "dark": 0.17 + 0.13 * power}[source]
-    sky = {"top": 0.36, "side": 0.10 + 0.06 * power, "dark": 0.10}[source]
+    level = {"top": 0.66 + 0.12 * power, "side": 0.85 + 0.3 * power, "dark": 0.17 + 0.13 * power}[source]
+    sky = {"top": 0.30, "side": 0.10 + 0.06 * power, "dark": 0.10}[source]
     cast = 0.10 * (warmth - 0.5) if source == "top" else 0.30 * (warmth - 0.35)
     colour = np.array([1 - cast, 1, 1 + cast], np.float32)
     across = 2 * np.pi * azimuth
@@ -63,13 +72,14 @@ def draw_light(source: LightSource, rng: np.random.Generator) -> Light:
         key=(level * colour).astype(np.float32),
         sky=(sky * (0.6 + 0.4 * level) * (2 - colour)).astype(np.float32),
         softness={"top": 0.22, "side": 0.07, "dark": 0.20}[source],
-        slant={"top": 0.12, "side": 0.3 + 0.3 * slant, "dark": 0.4}[source],
+        slant={"top": 0.1 + 0.2 * slant, "side": 0.3 + 0.3 * slant, "dark": 0.4}[source],
+        height=700 + 700 * nearness,
         dimness={"top": 1.0, "side": 1.3, "dark": 3.5}[source],
     )
 
 
-def cast_shade(z: Image, light: Light) -> Shade:
-    """``z`` (rows, columns): the view's z of whatever is seen."""
+def cast_shade(z: Image, flesh: NDArray[np.bool_], light: Light) -> Shade:
+    """From the view's z of whatever is seen, and where that is cap or stalk: (rows, columns)."""
     rows, columns = z.shape
     small = cv2.resize(z, None, fx=HALF, fy=HALF, interpolation=cv2.INTER_AREA)
 
@@ -77,7 +87,9 @@ def cast_shade(z: Image, light: Light) -> Shade:
         return cv2.resize(image, (columns, rows), interpolation=cv2.INTER_LINEAR)
 
     hulls = tuple(full(_blurred(small, reach * HALF)) for reach, _ in OCCLUDERS)
-    return Shade(tuple(full(c) for c in _ceilings(small, light)), hulls, _gain(rows, columns, light))
+    pale = cv2.resize(flesh.astype(np.float32), None, fx=HALF, fy=HALF, interpolation=cv2.INTER_AREA)
+    around = full(_blurred(pale, FLESH_REACH * HALF))
+    return Shade(tuple(full(c) for c in _ceilings(small, light)), hulls, _gain(rows, columns, light), around)
 
 
 def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float) -> Image:
@@ -92,18 +104,20 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     # The softer the light, the further above the edge of a shadow its last ray passes.
     reach = 2.0 + 30.0 * light.softness
     blocked = sum(np.clip((ceiling[here] - z) / reach + 0.5, 0, 1) for ceiling in shade.ceilings)
-    direct = lit * (1 - blocked / len(shade.ceilings)) * shade.gain[here]
+    nearer = 1 + 2 * np.clip(z, -50, 300) / light.height
+    direct = lit * (1 - blocked / len(shade.ceilings)) * shade.gain[here] * nearer
 
     closed = sum(
         most * np.clip((hull[here] - z) / (0.9 * size), 0, 1)
         for hull, (size, most) in zip(shade.hulls, OCCLUDERS, strict=True)
     )
     opened = 1 - np.minimum(closed, 0.97)
-    sky = opened * (0.55 + 0.45 * normal[..., 2])
-    # Light bounces on between bright walls, taking on their colour (Jimenez et al. 2016, multi-bounce occlusion).
-    bounced = sky[..., None] / (1 - 0.85 * colour * (1 - opened[..., None]))
-    shut = np.minimum(1, 0.35 + opened)[..., None]
-    return colour * (light.key * direct[..., None] * shut + light.sky * bounced)
+    sky = opened * (0.2 + 0.8 * normal[..., 2])
+    # Where caps shut out the sky their own light comes in its place, creamier with every bounce.
+    fill = (1 - opened * (0.6 + 0.4 * normal[..., 2])) * shade.flesh[here] * shade.gain[here]
+    deep = np.clip(closed * 1.6 - 0.35, 0, 1)
+    bounce = fill[..., None] * (FLESH + (FLESH * FLESH * 0.9 - FLESH) * deep[..., None])
+    return colour * (light.key * (direct[..., None] + 0.62 * bounce) + light.sky * sky[..., None])
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:

@@ -15,7 +15,7 @@ from model.scene import textures
 from model.scene.caps import Cap, Image, Surface
 from model.scene.settings import Skin
 
-WHITE = np.array([0.76, 0.82, 0.84], np.float32)
+WHITE = np.array([0.80, 0.82, 0.83], np.float32)
 BROWN = np.array([0.075, 0.165, 0.33], np.float32)
 CREAM = np.array([0.80, 0.93, 1.0], np.float32)
 """What the underside and the flesh keep of white."""
@@ -38,12 +38,13 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     x, y = _turned(surface, rng)
     chances = rng.random(4)
     seed = rng.integers(2**32)
-    blotch, pores, *_ = np.moveaxis(textures.look_up(textures.skin(), x, y), 2, 0)
+    blotch, pores = cv2.split(textures.look_up(textures.skin(), x, y))
     top = np.clip(surface.rise / cap.dome, 0, 1)
 
+    tone = 1 + 0.06 * rng.standard_normal()
     brownness = np.clip(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)[..., None]
     colour = WHITE * (1 - brownness) + BROWN * brownness
-    colour = colour * (1 + 0.022 * blotch + (0.010 + 0.05 * brown) * pores)[..., None]
+    colour = colour * (tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores)[..., None]
     colour = _mixed(colour, colour * CREAM, _step(0.16, -0.12, surface.rise) * 0.8)
     dress = Dress(colour, 0.05 * pores)
 
@@ -65,8 +66,9 @@ def dress_stalk(surface: Surface, *, brown: float, rng: np.random.Generator) -> 
     x, y = (0.25 * surface.skin_x + ox).astype(np.float32), (surface.skin_y + oy).astype(np.float32)
     streak = textures.look_up(textures.cloud(), x, 4 * y)
     colour = WHITE * CREAM * (1 - 0.25 * brown) * (0.92 + 0.05 * streak)[..., None]
-    soiled = _step(0.25, 0.0, surface.rise + 0.05 * streak) * 0.55
-    return _specks(Dress(_mixed(colour, 8 * DIRT, soiled), 0.2 * streak), surface.skin_x, surface.skin_y, density=0.1)
+    soiled = _step(0.15, 0.0, surface.rise + 0.05 * streak) * 0.12
+    dress = Dress(_mixed(colour, 8 * DIRT, soiled), 0.2 * streak)
+    return _specks(dress, surface.skin_x, surface.skin_y, density=0.1)
 
 
 def bend_normals(normal: Image, relief: Image) -> Image:
@@ -79,18 +81,18 @@ def bend_normals(normal: Image, relief: Image) -> Image:
         ]
     )
     bent = normal + slope
-    return bent / np.sqrt((bent * bent).sum(axis=2, keepdims=True))
+    return bent / np.sqrt(np.einsum("rcx,rcx->rc", bent, bent))[..., None]
 
 
 def _specks(dress: Dress, x: Image, y: Image, *, density: float) -> Dress:
-    dark, value = np.moveaxis(textures.look_up(textures.specks(), x, y), 2, 0)
+    dark, value = cv2.split(textures.look_up(textures.specks(), x, y))
     return dress._replace(colour=_mixed(dress.colour, DIRT * 2, dark * (value < density)))
 
 
 def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     """(a) The skin torn into brownish plates, most of all between top and rim."""
     x, y = _turned(surface, rng, zoom=26 / (0.30 * cap.radius + 6))
-    edge, value = np.moveaxis(textures.look_up(textures.plates(), x, y), 2, 0)
+    edge, value = cv2.split(textures.look_up(textures.plates(), x, y))
     ragged = edge + 0.8 * textures.look_up(textures.grain(), 2 * x, 2 * y)
     plate = _step(1.0, 3.2, ragged) * (0.35 + 0.65 * value)
     where = _step(-0.9, 0.5, textures.look_up(textures.cloud(), x, y) + 0.6 * rng.standard_normal())
@@ -103,10 +105,10 @@ def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -
     x, y = _turned(surface, rng, zoom=110 / cap.radius)
     patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(textures.grain(), 0.2 * x, 0.2 * y)
     least = rng.uniform(0.2, 1.1)
-    strength = _step(least, least + 0.5, patches) * rng.uniform(0.5, 1.0)
-    ring = _step(least, least + 0.2, patches) * _step(least + 0.5, least + 0.2, patches)
+    strength = _step(least, least + 1.3, patches) * rng.uniform(0.6, 1.0)
+    ring = _step(least, least + 0.25, patches) * _step(least + 0.6, least + 0.25, patches)
     spotted = _mixed(dress.colour, dress.colour * BLOTCH, strength)
-    return dress._replace(colour=_mixed(spotted, spotted * BLOTCH, 0.35 * ring))
+    return dress._replace(colour=_mixed(spotted, spotted * BLOTCH, 0.3 * ring))
 
 
 def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:

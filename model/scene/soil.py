@@ -13,10 +13,10 @@ from model.scene.growth import Floats
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
-PEAT = np.array([0.0050, 0.0052, 0.0050], np.float32)
+PEAT = np.array([0.0058, 0.0047, 0.0044], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)
-MYCELIUM = np.array([0.50, 0.50, 0.48], np.float32)
-PINHEAD = np.array([0.52, 0.62, 0.66], np.float32)
+MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
+PINHEAD = np.array([0.62, 0.68, 0.70], np.float32)
 STRAW = np.array([0.06, 0.16, 0.28], np.float32)
 ROOT = np.array([0.008, 0.013, 0.02], np.float32)
 CRUMB_REACH = 70.0
@@ -54,16 +54,14 @@ def lay_soil(
 ) -> Bare:
     """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
     x, y = _wander(ground, rng)
-    relief = textures.look_up(textures.clods(), x, y)
-    cloud = textures.look_up(textures.cloud(), 0.7 * x, 0.7 * y)
-    grain = textures.look_up(textures.grain(), x, y)
+    relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
     near = _nearness(feet, view)
 
     earth = PEAT + (LOAM - PEAT) * sowing.brightness
-    colour = earth * np.clip(1.0 + 0.45 * relief + 0.3 * grain, 0.15, 4)[..., None]
+    colour = earth * np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4)[..., None]
     height = 0.5 * soil.relief * relief + 0.5 * grain
 
-    fluff = _mycelium(x, y, cloud, near, amount=sowing.mycelium)
+    fluff = _mycelium(x, y, cloud, strands, near, amount=sowing.mycelium)
     colour += (MYCELIUM * (0.8 + 0.15 * grain)[..., None] - colour) * fluff[..., None]
     height += 3.0 * fluff
 
@@ -98,24 +96,22 @@ def _nearness(feet: Floats, view: View) -> Image:
     return cv2.resize(near, (view.width, view.height), interpolation=cv2.INTER_LINEAR)
 
 
-def _mycelium(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> Image:
+def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, amount: float) -> Image:
     """Share of white: strands everywhere a little, felted to clumps in some regions."""
-    strands = textures.look_up(textures.threads(), 0.6 * x, 0.6 * y)
-    fine = textures.look_up(textures.threads(), 1.3 * y, 1.3 * x)
-    felt = textures.look_up(textures.cloud(), 3.1 * y, 3.1 * x)
+    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * y, 2.3 * x))
     region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
     clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
     web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
-    return np.clip(np.maximum(0.75 * web, clump * (0.35 + 0.5 * fine + 0.4 * strands)), 0, 1) * 0.9
+    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * 0.95
 
 
 def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
     """Height and tone of pinheads and crumbs, thickest around the caps."""
-    rise, tone = np.moveaxis(textures.look_up(textures.crumbs(), x, y), 2, 0)
-    other, other_tone = np.moveaxis(textures.look_up(textures.crumbs(), 1.4 * y + 211, 1.4 * x + 97), 2, 0)
-    region = 2.2 * amount - 1.5 + 0.5 * cloud + 0.9 * near
-    first = np.where(region > 0.1, rise, 0)
-    second = np.where(region > 0.45, 0.8 * other, 0)
+    rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
+    other, other_tone = cv2.split(textures.look_up(textures.crumbs(), 1.4 * y + 211, 1.4 * x + 97))
+    region = 1.8 * amount - 1.75 + 0.75 * cloud + 0.9 * near
+    first = np.where(region > 0.1, 1.25 * rise, 0)
+    second = np.where(region > 0.6, 0.8 * other, 0)
     return np.maximum(first, second), np.where(first >= second, tone, other_tone)
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from model.scene.caps import Box, Surface
+from model.scene.caps import Box, Image, Surface
 from model.scene.growth import Stand
 from model.scene.view import View, project
 
@@ -56,42 +57,66 @@ def bounds_of_stalk(stalk: Stalk) -> Box:
     )
 
 
+def cover_of_stalk(stalk: Stalk, box: Box) -> Image:
+    """Share of every pixel of a box that the stalk covers, where nothing lies on it."""
+    return _measured(stalk, box).cover
+
+
 def surface_of_stalk(stalk: Stalk, box: Box) -> Surface:
     """A tapering cylinder with a rounded foot over the pixels of a box."""
-    left, top, right, bottom = box
-    dx = np.arange(left, right, dtype=np.float32)[None] + np.float32(0.5 - stalk.foot[0])
-    dy = np.arange(top, bottom, dtype=np.float32)[:, None] + np.float32(0.5 - stalk.foot[1])
-    run = np.subtract(stalk.head, stalk.foot)
-    length = max(float(np.hypot(run[0], run[1])), 1e-3)
-    ahead_x, ahead_y = run[0] / length, run[1] / length
-    along = (dx * ahead_x + dy * ahead_y) / length
-    aside = dy * ahead_x - dx * ahead_y
-
-    climb = np.clip(along, 0, 1)
-    half = stalk.wide + (stalk.narrow - stalk.wide) * climb
-    # Past the foot and the head the cylinder ends in the half circle of its own width.
-    beyond = (along - climb) * length
-    off = np.hypot(aside, beyond)
-    side = np.clip(aside / half, -1, 1)
-    end = np.clip(beyond / half, -1, 1)
+    at = _measured(stalk, box)
+    side = np.clip(at.aside / at.half, -1, 1)
+    end = np.clip(at.beyond / at.half, -1, 1)
     front = np.sqrt(np.maximum(1 - side**2 - end**2, 0))
 
-    steep = float(run[2]) / float(np.linalg.norm(run))
-    level = length / float(np.linalg.norm(run))
+    climb = stalk.head[2] - stalk.foot[2]
+    full = math.hypot(at.length, climb)
+    steep, level = climb / full, at.length / full
     lean = end - front * steep
     normal = np.dstack(
         [
-            lean * ahead_x - side * ahead_y,
-            lean * ahead_y + side * ahead_x,
+            lean * at.ahead[0] - side * at.ahead[1],
+            lean * at.ahead[1] + side * at.ahead[0],
             np.maximum(front * level + np.maximum(-end, 0) * steep, 0.05),
         ]
     )
-    normal /= np.sqrt((normal * normal).sum(axis=2, keepdims=True))
+    normal /= np.sqrt(np.einsum("rcx,rcx->rc", normal, normal))[..., None]
     return Surface(
-        cover=np.clip(half - off + 0.5, 0, 1).astype(np.float32),
-        z=(stalk.foot[2] + run[2] * climb + half * front * level).astype(np.float32),
-        normal=normal.astype(np.float32),
-        skin_x=(along * np.linalg.norm(run)).astype(np.float32),
-        skin_y=(np.arcsin(side) * half).astype(np.float32),
-        rise=climb.astype(np.float32),
+        cover=at.cover,
+        z=stalk.foot[2] + climb * at.up + at.half * front * level,
+        normal=normal,
+        skin_x=at.up * full,
+        skin_y=np.arcsin(side) * at.half,
+        rise=at.up,
     )
+
+
+class _Measured(NamedTuple):
+    """Pixels of a box measured along the line from foot to head, float32 (rows, columns)."""
+
+    ahead: tuple[float, float]
+    """Unit vector from foot to head in the image."""
+    length: float
+    up: Image
+    """Part of the way to the head, within [0, 1]."""
+    aside: Image
+    beyond: Image
+    """Past either end, where the stalk closes in the half circle of its own width, px."""
+    half: Image
+    cover: Image
+
+
+def _measured(stalk: Stalk, box: Box) -> _Measured:
+    left, top, right, bottom = box
+    dx = np.arange(left, right, dtype=np.float32)[None] + np.float32(0.5 - stalk.foot[0])
+    dy = np.arange(top, bottom, dtype=np.float32)[:, None] + np.float32(0.5 - stalk.foot[1])
+    run_x, run_y = stalk.head[0] - stalk.foot[0], stalk.head[1] - stalk.foot[1]
+    length = max(math.hypot(run_x, run_y), 1e-3)
+    ahead_x, ahead_y = run_x / length, run_y / length
+    along = dx * ahead_x + dy * ahead_y
+    aside = dy * ahead_x - dx * ahead_y
+    up = np.clip(along / length, 0, 1)
+    beyond = along - up * length
+    half = stalk.wide + (stalk.narrow - stalk.wide) * up
+    cover = np.clip(half - np.hypot(aside, beyond) + 0.5, 0, 1)
+    return _Measured((ahead_x, ahead_y), length, up, aside, beyond, half, cover)

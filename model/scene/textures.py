@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Tile = NDArray[np.float32]
-"""(side, side) or (side, side, channels)."""
+"""(side, side) or (side, side, channels); the last row and column repeat the first."""
 
 SIZE = 1024
 SPECK_CELL = 16
@@ -21,7 +21,10 @@ SPECK_CELL = 16
 
 def look_up(tile: Tile, x: NDArray[np.float32], y: NDArray[np.float32]) -> Tile:
     """The tile at float32 coordinates of any size, repeating; bilinear."""
-    return cv2.remap(tile, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP)
+    side = np.float32(len(tile) - 1)
+    x = x - side * np.floor(x / side)
+    y = y - side * np.floor(y / side)
+    return cv2.remap(tile, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
 @lru_cache(maxsize=None)
@@ -38,13 +41,13 @@ def clods() -> Tile:
         for octave, size in enumerate((70.0, 34.0, 16.0, 8.0))
     )
     grit = _noise(seed=14, slope=0.3, coarsest=6.0, finest=2.0)
-    return _standardised(np.asarray(lumps) + 2.0 * grit)
+    return _standardised(np.asarray(lumps) + 2.0 * grit).astype(np.float32)
 
 
 @lru_cache(maxsize=None)
 def threads() -> Tile:
     """Strands: 1 on a strand, falling to 0 away from it, branching at several sizes."""
-    strands = np.zeros((SIZE, SIZE), np.float32)
+    strands = np.zeros((SIZE + 1, SIZE + 1), np.float32)
     for octave, size in enumerate((120.0, 60.0, 30.0)):
         wave = _noise(seed=20 + octave, slope=1.4, coarsest=2 * size, finest=6.0)
         strands = np.maximum(strands, np.exp(-((np.abs(wave) / 0.09) ** 1.2)) * (1.0 - 0.2 * octave))
@@ -59,12 +62,20 @@ def grain() -> Tile:
 
 @lru_cache(maxsize=None)
 def skin() -> Tile:
-    """Channels: blotches, pores, and the slope of the skin's relief in x and in y; each mean 0, deviation 1."""
-    relief = _noise(seed=40, slope=0.9, coarsest=26.0, finest=2.2)
-    slope_x = np.roll(relief, -1, axis=1) - np.roll(relief, 1, axis=1)
-    slope_y = np.roll(relief, -1, axis=0) - np.roll(relief, 1, axis=0)
-    pores = _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8)
-    return np.dstack([cloud(), pores, _standardised(slope_x), _standardised(slope_y)])
+    """Channels: blotches and pores; each mean 0, deviation 1."""
+    return np.dstack([cloud(), _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8)])
+
+
+@lru_cache(maxsize=None)
+def earth() -> Tile:
+    """Channels: clods, regions, grit, strands, as the tiles of these names."""
+    return np.dstack([clods(), cloud(), grain(), threads()])
+
+
+@lru_cache(maxsize=None)
+def felt() -> Tile:
+    """Channels: regions and strands, to be looked up finer than ``earth`` and turned."""
+    return np.dstack([cloud(), threads()])
 
 
 @lru_cache(maxsize=None)
@@ -80,7 +91,7 @@ def plates() -> Tile:
     distance = cv2.distanceTransform((~border).astype(np.uint8), cv2.DIST_L2, 5)
     value = rng.random(int(owner.max()) + 1)[owner]
     inner = slice(96, -96)
-    return np.dstack([distance[inner, inner], value[inner, inner]]).astype(np.float32)
+    return _closed(np.dstack([distance[inner, inner], value[inner, inner]]))
 
 
 @lru_cache(maxsize=None)
@@ -99,7 +110,7 @@ def specks() -> Tile:
             along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
             spot = np.clip(1.4 - np.hypot(along / long, across / wide), 0, 1) * rng.uniform(0.5, 1.0)
             dark[row * SPECK_CELL :, column * SPECK_CELL :][:SPECK_CELL, :SPECK_CELL] = spot
-    return np.dstack([dark, value]).astype(np.float32)
+    return _closed(np.dstack([dark, value]))
 
 
 @lru_cache(maxsize=None)
@@ -113,7 +124,7 @@ def crumbs() -> Tile:
     for x, y in middle[rng.integers(0, len(middle), count)] + rng.normal(0, 7.0, (count, 2)):
         radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
         _raise_crumb(height, value, x, y, radius=radius, rng=rng)
-    return np.dstack([height, value])
+    return _closed(np.dstack([height, value]))
 
 
 def _raise_crumb(height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator) -> None:
@@ -138,8 +149,14 @@ def _noise(*, seed: int, slope: float, coarsest: float, finest: float) -> Tile:
     band = np.exp(-((frequency * finest / 2) ** 2)) * -np.expm1(-((frequency * coarsest) ** 4))
     band[0, 0] = 0.0
     white = np.fft.rfft2(np.random.default_rng(seed).standard_normal((SIZE, SIZE)))
-    return _standardised(np.fft.irfft2(white * band * frequency**-slope, s=(SIZE, SIZE)))
+    return _closed(_standardised(np.fft.irfft2(white * band * frequency**-slope, s=(SIZE, SIZE))))
 
 
 def _standardised(values: NDArray[np.floating]) -> Tile:
-    return ((values - values.mean()) / values.std()).astype(np.float32)
+    return (values - values.mean()) / values.std()
+
+
+def _closed(values: NDArray[np.floating]) -> Tile:
+    """Row and column 0 once more at the end, so that a look-up need never reach across."""
+    edges = [(0, 1), (0, 1)] + [(0, 0)] * (values.ndim - 2)
+    return np.ascontiguousarray(np.pad(values, edges, mode="wrap"), dtype=np.float32)

@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
-from model.geometry import Ellipse, Outline, ellipse_of_rotated_box, points_of_part
+from model.geometry import Ellipse, Outline, ellipse_of_rotated_box, part_of_points, points_of_part
 from model.raster import outline_of_mask
-from model.scene.caps import Cap, polygon_of_cap
-from model.scene.layers import Layer, Owners, window
+from model.scene.caps import Box, Cap, polygon_of_cap
+from model.scene.layers import Owners, Seen, window
 
 
 class BedCap(NamedTuple):
@@ -36,36 +35,28 @@ class BedCap(NamedTuple):
         return self.ellipse.cx, self.ellipse.cy
 
 
-def tell_truth(caps: list[Cap], layers: list[Layer], owners: Owners) -> tuple[BedCap, ...]:
-    """The caps with a pixel in sight, from the lowest to the highest; ``layers`` from lowest to highest."""
-    told = []
-    for layer in layers:
-        here = window(layer.box)
-        seen = owners[here] == layer.owner
-        if layer.is_cap and seen.any():
-            told.append(_cap_as_seen(caps[layer.mushroom], layer, seen, order=len(told), frame=owners.shape))
-    return tuple(told)
+def tell_truth(caps: list[Cap], seen: list[Seen], owners: Owners) -> tuple[BedCap, ...]:
+    """The caps with a pixel in sight; both from the lowest to the highest."""
+    in_sight = [part for part in seen if part.layer.is_cap]
+    return tuple(_cap_as_seen(caps[part.layer.mushroom], part, owners, order) for order, part in enumerate(in_sight))
 
 
-def _cap_as_seen(
-    cap: Cap, layer: Layer, seen: NDArray[np.bool_], *, order: int, frame: tuple[int, ...]
-) -> BedCap:
+def _cap_as_seen(cap: Cap, part: Seen, owners: Owners, order: int) -> BedCap:
     whole = polygon_of_cap(cap)
+    mask = (owners[window(part.box)] == part.layer.owner).astype(np.uint8)
     return BedCap(
-        visible=_outline_in_frame(seen, layer, frame),
+        visible=_moved(outline_of_mask(mask), part.box),
         whole=whole,
         ellipse=_fitted(whole),
         order=order,
-        visible_fraction=int(seen.sum()) / layer.area,
-        diameter=2 * (layer.area / np.pi) ** 0.5,
+        visible_fraction=int(mask.sum()) / part.layer.area,
+        diameter=2 * (part.layer.area / np.pi) ** 0.5,
     )
 
 
-def _outline_in_frame(seen: NDArray[np.bool_], layer: Layer, frame: tuple[int, ...]) -> Outline:
-    """Traced over the cap's own box, which the image's edges bound where the image bounds the cap."""
-    mask = np.zeros(frame, np.uint8)
-    mask[window(layer.box)] = seen
-    return outline_of_mask(mask)
+def _moved(outline: Outline, box: Box) -> Outline:
+    """From a box to the image: the box ends where the image does or a pixel outside the cap, so nothing is cut."""
+    return [part_of_points(points_of_part(part) + box[:2]) for part in outline]
 
 
 def _fitted(part: list[float]) -> Ellipse:
