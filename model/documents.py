@@ -23,8 +23,10 @@ from model.geometry import (
     canonical_ellipse,
     centre_of_shape,
     diameter_of_shape,
+    part_of_points,
 )
-from model.raster import Rle, check_outline, check_rle, mask_of_rle, outline_of_mask, rle_of_outline
+from model.raster import Rle, check_outline, check_rle, mask_of_rle, rle_of_outline
+from model.tracing import rim_of_mask
 
 ELLIPSE_FIGURES = 5
 CIRCLE_FIGURES = 3
@@ -211,12 +213,11 @@ def _rle(segmentation: Any, image: _Image) -> Rle:
 
 
 def _fitted(segmentation: Any, image: _Image) -> Shape | None:
-    """The ellipse fitted to the polygon's vertices, of all its parts together; an RLE is outlined first."""
+    """The ellipse fitted to the polygon's vertices, of all its parts together, or to the rim of an RLE."""
     if isinstance(segmentation, list):
         outline = check_outline(segmentation, width=image.width, height=image.height)
-    else:
-        outline = outline_of_mask(mask_of_rle(_rle(segmentation, image)))
-    return whole_of_mark(Polygon([figure for part in outline for figure in part]))
+        return whole_of_mark(Polygon([figure for part in outline for figure in part]))
+    return whole_of_mark(Polygon(part_of_points(rim_of_mask(mask_of_rle(_rle(segmentation, image))))))
 
 
 def _diameter_of_box(entry: dict[str, Any]) -> float | None:

@@ -73,6 +73,11 @@ def part_of_points(points: ArrayLike) -> list[float]:
     return np.asarray(points, dtype=np.float64).ravel().tolist()
 
 
+def without_repeats(points: Points) -> Points:
+    """The vertices (n, 2) of a closed polygon that differ from the one before."""
+    return points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
+
+
 def centres_of_pixels(indices: ArrayLike) -> Points:
     """Pixel indices, as in OpenCV's contours ((n, 2) or (n, 1, 2)), to the (n, 2) centres of those pixels."""
     return np.asarray(indices, dtype=np.float64).reshape(-1, 2) + 0.5

@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import cv2
 import numpy as np
 from msgspec.structs import astuple
 from numpy.typing import NDArray
@@ -27,7 +28,9 @@ from model.geometry import (
     part_of_points,
     points_of_part,
     signed_area,
+    without_repeats,
 )
+from model.rle import checked_runs
 from model.tracing import Component, Loop, components_of_mask, fit_polygon, join_holes, knots_of_loop
 
 Mask = NDArray[np.uint8]
@@ -36,8 +39,6 @@ Rle = dict[str, Any]
 coco: Any = pycocotools_mask
 """Untyped: its stubs know neither lists of polygons nor counts as text."""
 
-MAX_PIXELS = 1 << 30
-"""No mask larger than this is decoded: a size in a file costs nothing to write."""
 MAX_POINTS = 10_000
 """Of one part."""
 REACH = 4
@@ -116,29 +117,18 @@ def check_rle(rle: Any) -> Rle:
     pycocotools writes past its buffers where the counts do not add up to the size, so nothing from outside
     may reach it unchecked. Raises GeometryError.
     """
-    if not isinstance(rle, dict) or "size" not in rle or "counts" not in rle:
-        raise GeometryError("The RLE lacks its size or its counts.")
-    size = rle["size"]
-    if not isinstance(size, list | tuple) or len(size) != 2 or any(type(n) is not int or n < 1 for n in size):
-        raise GeometryError("The size of an RLE must be two positive whole numbers, height and width.")
-    height, width = size
-    if height * width > MAX_PIXELS:
-        raise GeometryError(f"The RLE's size of {width} × {height} pixels is beyond all reason.")
-    counts = rle["counts"]
-    runs = _runs_of_text(counts) if isinstance(counts, str | bytes) else counts
-    if not isinstance(runs, list) or any(type(run) is not int or run < 0 for run in runs):
-        raise GeometryError("The counts of an RLE must be whole numbers, none below zero.")
-    if sum(runs) != height * width:
-        raise GeometryError(f"The counts of the RLE do not add up to its {width} × {height} pixels.")
+    height, width, runs = checked_runs(rle)
     return _as_text(coco.frPyObjects({"size": [height, width], "counts": runs}, height, width))
 
 
 def outline_of_rle(rle: Any) -> Outline:
     """The outline of an RLE as a file holds it; GeometryError where it is not one or covers no pixel."""
-    outline = outline_of_mask(mask_of_rle(check_rle(rle)))
-    if not outline:
+    code = check_rle(rle)
+    x, y, width, height = (int(side) for side in coco.toBbox(code))
+    if not width:
         raise GeometryError("The RLE covers no pixel.")
-    return outline
+    cut = np.ascontiguousarray(coco.decode(code)[y : y + height, x : x + width])
+    return _outline(cut, corner=(x, y), image=(code["size"][1], code["size"][0]))
 
 
 def outline_of_mask(mask: Mask) -> Outline:
@@ -149,8 +139,9 @@ def outline_of_mask(mask: Mask) -> Outline:
     polygon would change a pixel it gets more vertices there, and as a last resort the component follows
     its pixels' edges. Holes are joined to their part by bridges.
     """
-    pieces = components_of_mask(np.asarray(mask, np.uint8))
-    return [_part_of_component(piece, image=mask.shape[::-1]) for piece in pieces]
+    mask = np.ascontiguousarray(mask, np.uint8)
+    x, y, width, height = cv2.boundingRect(mask)
+    return _outline(mask[y : y + height, x : x + width], corner=(x, y), image=(mask.shape[1], mask.shape[0]))
 
 
 def check_outline(outline: Any, *, width: int, height: int) -> Outline:
@@ -187,31 +178,6 @@ def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
 
 def _as_text(code: Rle) -> Rle:
     return {"size": [int(side) for side in code["size"]], "counts": code["counts"].decode("ascii")}
-
-
-def _runs_of_text(text: str | bytes) -> list[int]:
-    """COCO's compressed counts: five bits a character, the sixth says more follow.
-
-    From the fourth on they are differences to the count before last. Raises GeometryError.
-    """
-    codes = text.encode("ascii", "replace") if isinstance(text, str) else text
-    runs: list[int] = []
-    value = shift = 0
-    for code in codes:
-        digit = code - 48
-        if not 0 <= digit < 64 or shift > 60:
-            raise GeometryError("The counts of the RLE are not in COCO's compressed form.")
-        value |= (digit & 31) << shift
-        shift += 5
-        if digit & 32:
-            continue
-        if digit & 16:
-            value -= 1 << shift
-        runs.append(value + runs[-2] if len(runs) > 2 else value)
-        value = shift = 0
-    if shift:
-        raise GeometryError("The counts of the RLE break off.")
-    return runs
 
 
 def _check_part(part: Any, width: int, height: int) -> Outline:
@@ -252,7 +218,7 @@ def _vertices(part: Any, width: int, height: int) -> Points:
         points = points_of_part(part)
     except OverflowError:
         raise GeometryError("A polygon's coordinates must be finite numbers.") from None
-    points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
+    points = without_repeats(points)
     if len(points) < 3:
         raise GeometryError("A polygon needs at least three points.")
     _check_reach(points, width, height)
@@ -283,20 +249,30 @@ def _covered(part: list[float], width: int, height: int) -> Outline:
     return outline
 
 
-def _part_of_component(piece: Component, *, image: Sequence[int]) -> list[float]:
-    """``image`` is (width, height)."""
-    low = -np.array(piece.corner)
+def _outline(cut: Mask, *, corner: tuple[int, int], image: tuple[int, int]) -> Outline:
+    """Of a piece of a mask; ``corner`` is x, y of its first pixel, ``image`` the whole's width and height."""
+    return [
+        _part_of_component(piece, offset=np.add(piece.corner, corner), image=np.array(image))
+        for piece in components_of_mask(cut)
+    ]
+
+
+def _part_of_component(
+    piece: Component, *, offset: NDArray[np.int64], image: NDArray[np.int64]
+) -> list[float]:
     midpoints = [loop.midpoints for loop in piece.loops]
     knots = [knots_of_loop(points, tolerance=TOLERANCE) for points in midpoints]
     for _ in range(ROUNDS if piece.mask.sum() > SMALL else 0):
-        fits = [fit_polygon(*pair).clip(low, low + image) for pair in zip(midpoints, knots, strict=True)]
-        points = np.round(join_holes(fits[0], fits[1:]), 2)
-        wrong = _mask_of_points(points, piece.mask) != piece.mask
+        fits = [
+            fit_polygon(*pair).clip(-offset, image - offset) for pair in zip(midpoints, knots, strict=True)
+        ]
+        points = np.round(join_holes(fits[0], fits[1:]) + offset, 2)
+        wrong = _mask_of_points(points - offset, piece.mask) != piece.mask
         if not wrong.any():
-            return part_of_points(points - low)
+            return part_of_points(without_repeats(points))
         knots = [_more_knots(*pair, wrong) for pair in zip(piece.loops, knots, strict=True)]
     corners = [loop.corners for loop in piece.loops]
-    return part_of_points(join_holes(corners[0], corners[1:]) - low)
+    return part_of_points(without_repeats(join_holes(corners[0], corners[1:]) + offset))
 
 
 def _mask_of_points(points: Points, like: Mask) -> Mask:

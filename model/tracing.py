@@ -60,31 +60,34 @@ class Component:
     mask: NDArray[np.uint8]
     """Its box cut out of the mask, one pixel wider on every side, without the other pieces."""
     corner: tuple[int, int]
-    """x, y of that cut-out's first pixel in the mask; -1 for a piece at the border."""
+    """x, y of that cut-out's first pixel in the mask: -1 for a piece at the border."""
     loops: list[Loop]
     """The outer one first, then the holes', in the cut-out's coordinates."""
 
 
 def components_of_mask(mask: NDArray[np.uint8]) -> list[Component]:
     """The 8-connected pieces of a mask (height, width), from the topmost down."""
-    x, y, width, height = cv2.boundingRect(mask)
-    if not width:
-        return []
-    cut = np.zeros((height + 2, width + 2), np.uint8)
-    cut[1:-1, 1:-1] = mask[y : y + height, x : x + width] != 0
-    count, labels, boxes, _ = cv2.connectedComponentsWithStats(cut, connectivity=8)
+    padded = np.pad((mask != 0).view(np.uint8), 1)
+    count, labels, boxes, _ = cv2.connectedComponentsWithStats(padded, connectivity=8)
     components = []
     for label in range(1, count):
-        left, top, w, h = (int(value) for value in boxes[label, :4])
-        piece = (labels[top - 1 : top + h + 1, left - 1 : left + w + 1] == label).astype(np.uint8)
+        left, top, width, height = (int(value) for value in boxes[label, :4])
+        piece = labels[top - 1 : top + height + 1, left - 1 : left + width + 1] == label
         loops = sorted(crack_loops(piece), key=lambda loop: signed_area(loop.corners), reverse=True)
-        components.append(Component(mask=piece, corner=(x + left - 2, y + top - 2), loops=loops))
+        components.append(Component(mask=piece.view(np.uint8), corner=(left - 2, top - 2), loops=loops))
     return components
 
 
-def crack_loops(mask: NDArray[np.uint8]) -> list[Loop]:
-    """All closed crack chains of a mask (height, width) of 0 and 1 whose border rows and columns are 0."""
-    covered = mask.astype(bool)
+def rim_of_mask(mask: NDArray[np.uint8]) -> Points:
+    """(n, 2): the points half way between inner and outer pixels, without those of holes."""
+    x, y, width, height = cv2.boundingRect(mask)
+    pieces = components_of_mask(mask[y : y + height, x : x + width])
+    rims = [piece.loops[0].midpoints + piece.corner + (x, y) for piece in pieces]
+    return np.concatenate(rims) if rims else np.zeros((0, 2))
+
+
+def crack_loops(covered: NDArray[np.bool_]) -> list[Loop]:
+    """All closed crack chains of a mask (height, width) whose border rows and columns are False."""
     nw, ne, sw, se = covered[:-1, :-1], covered[:-1, 1:], covered[1:, :-1], covered[1:, 1:]
     # Lattice point (x, y) of the arrays below is (x + 1, y + 1) of the mask: the border has no cracks.
     leaving = np.stack([se & ~ne, sw & ~se, nw & ~sw, ne & ~nw])

@@ -1,4 +1,4 @@
-"""Finds a Chromium to test and measure in, or installs one: an installed browser, else Debian's, else playwright's own.
+"""Finds a Chromium to test and measure in, or installs one: one installed, else Debian's, else playwright's.
 
 ``python -m app.bench.chromium`` prints its path, and fails with the remedy where there is none.
 """
@@ -10,6 +10,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+from playwright.sync_api import sync_playwright
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
 MAC = Path("/Applications/Google Chrome.app/Contents/MacOS/Google Chrome")
@@ -45,8 +47,6 @@ def find() -> Path | None:
 
 
 def _fetched_by_playwright() -> list[Path]:
-    from playwright.sync_api import sync_playwright
-
     with sync_playwright() as playwright:
         return [Path(playwright.chromium.executable_path)]
 

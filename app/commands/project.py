@@ -127,8 +127,8 @@ def _print_import(report: ImportReport, *, as_json: bool) -> None:
         typer.echo(json.dumps(figures))
         return
     typer.echo(
-        f"{report.images} images ({report.images_known} already there), {report.annotations} annotations, "
-        f"{report.predictions} predictions ({report.known} already there), {len(report.problems)} problems"
+        f"{report.images} new images, {report.annotations} annotations, {report.predictions} predictions; "
+        f"already there: {report.images_known} images, {report.known} shapes; {len(report.problems)} problems"
     )
 
 

@@ -7,6 +7,7 @@ import contextlib
 import io
 import logging
 import socket
+import warnings
 import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
@@ -74,7 +75,7 @@ def serve(
             if open_browser:
                 webbrowser.open(address)
 
-        server = _Server(_configure(make_app(workspace)), announce)
+        server = _Server(configure(make_app(workspace)), announce)
         server.run(sockets=[listening])
 
 
@@ -134,7 +135,8 @@ def _shown_host(host: str) -> str:
     return f"[{host}]" if ":" in host else "localhost" if host == "127.0.0.1" else host
 
 
-def _configure(app: Starlette) -> uvicorn.Config:
+def configure(app: Starlette) -> uvicorn.Config:
+    """uvicorn for the gateway: silent, no compression, frames as large as viser takes them."""
     return uvicorn.Config(
         app,
         log_config=None,
@@ -168,6 +170,8 @@ def _free_port() -> int:
 
 def _start_viser(port: int, project_name: str) -> viser.ViserServer:
     """viser on 127.0.0.1, not a word on stdout. Raises ServerError where it ends up on another port."""
+    # A tab may close at any moment; what is still on its way to it is of no use to anybody.
+    warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
     panels = _quietly(lambda: viser.ViserServer("127.0.0.1", port, label=project_name, verbose=False))
     if panels.get_port() != port:
         panels.stop()

@@ -7,6 +7,7 @@
 
 import { Overlay } from "./overlay.js";
 import { paint, reachOf } from "./paint.js";
+import { Studio } from "./studio.js";
 import { Surface } from "./surface.js";
 
 /** @typedef {import("./desk.js").Desk} Desk */
@@ -15,7 +16,6 @@ import { Surface } from "./surface.js";
 /** @typedef {import("./store.js").Shape} Shape */
 /** @typedef {{event: number, drawn: number, draw_ms: number, kind: string}} Timing */
 
-const SLICE_MS = 4;
 const TIMINGS_KEPT = 4096;
 const MANY_RECTS = 60;
 
@@ -42,8 +42,13 @@ export class Frame {
   constructor(host, desk, photos, sketches) {
     this.#desk = desk;
     this.#sketches = sketches;
-    this.#photo = new Surface(host, (context, view, region) => photos.paint(context, view, region));
-    this.#caps = new Surface(host, (context, view, region) => paint(context, view, region, this.#picture()));
+    const studio = new Studio();
+    this.#photo = new Surface(host, { paint: (context, view, region) => photos.paint(context, view, region) });
+    this.#caps = new Surface(host, {
+      paint: (context, view, region) => paint(context, view, region, this.#picture()),
+      order: (frame) => studio.order(frame, { ...this.#picture(), shapes: desk.items, lifted: desk.lifted }),
+      ready: () => this.ask(),
+    });
     this.#overlay = new Overlay(host);
     desk.signals.overlay.listen(() => this.ask());
     desk.signals.picture.listen(() => this.redraw());
@@ -111,12 +116,11 @@ export class Frame {
     const ratio = window.devicePixelRatio;
     this.#photo.visible = layers.photo;
     this.#caps.visible = !hidden;
-    const sharp = this.#photo.show(view, size, ratio, Infinity);
-    const complete = this.#caps.show(view, size, ratio, SLICE_MS);
+    this.#photo.show(view, size, ratio);
+    const complete = this.#caps.show(view, size, ratio);
     this.#overlay.draw(this.#desk, ratio, this.#sketches());
     this.#note(started);
-    if (!sharp || !complete) this.ask();
-    else for (const then of this.#whenComplete.splice(0)) then();
+    if (complete) for (const then of this.#whenComplete.splice(0)) then();
   }
 
   /** @type {(started: number) => void} */

@@ -6,10 +6,11 @@
  */
 
 import { axesOf } from "./caps.js";
+import { SHADE } from "./palette.js";
 
 /** @typedef {import("./messages.js").Whole} Whole */
 /** @typedef {import("./view.js").View} View */
-/** @typedef {CanvasRenderingContext2D} Context */
+/** @typedef {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} Context */
 
 const CLOSEST = 1.25;
 
@@ -60,5 +61,22 @@ export function strokeCased(context, { colour, width, casing = null }) {
   }
   context.strokeStyle = colour;
   context.lineWidth = width;
+  context.stroke();
+}
+
+/**
+ * Strokes the current path with lines of one pixel, the dark one shifted to the lower right: nearly as
+ * legible as a casing, and several times quicker where thousands of shapes are drawn in software.
+ *
+ * @param {Context} context
+ * @param {string} colour
+ */
+export function strokeShaded(context, colour) {
+  context.lineWidth = 1;
+  context.strokeStyle = SHADE;
+  context.translate(1, 1);
+  context.stroke();
+  context.translate(-1, -1);
+  context.strokeStyle = colour;
   context.stroke();
 }

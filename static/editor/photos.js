@@ -11,7 +11,7 @@
 
 const SMALL_WIDTH = 2000;
 const KEPT = 6;
-const PIXELATED_FROM = 4;
+const PIXELATED_FROM = 12;
 
 export class Photos {
   /** @type {Map<string, Promise<ImageBitmap>>} */
@@ -57,9 +57,8 @@ export class Photos {
    * @param {CanvasRenderingContext2D} context
    * @param {View} view
    * @param {Bounds} region
-   * @returns {Generator<void>}
    */
-  *paint(context, view, region) {
+  paint(context, view, region) {
     const bitmap = this.#bitmap;
     if (!bitmap) return;
     this.#sharpen(view.scale * context.getTransform().a);
@@ -82,7 +81,6 @@ export class Photos {
       (x1 - x0) * view.scale,
       (y1 - y0) * view.scale,
     );
-    yield;
   }
 
   /** @type {(scale: number) => void} */

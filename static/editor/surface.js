@@ -1,52 +1,59 @@
 /**
  * A picture of the image that outlives the frame it was drawn in. It is drawn with a margin around the
- * viewport and then only moved (and, while zooming, stretched) by the compositor; a fresh picture is
- * prepared a slice of time at a time and swapped in when it is complete.
+ * viewport and then only moved (and, while zooming, stretched) by the compositor, until a fresh one is
+ * ready to take its place.
  *
  * @module
  */
 
-import { overlap, toScreen, visibleBounds } from "./view.js";
+import { joined, overlap, toScreen, visibleBounds } from "./view.js";
 
 /** @typedef {import("./view.js").Bounds} Bounds */
 /** @typedef {import("./view.js").Size} Size */
 /** @typedef {import("./view.js").View} View */
-/** @typedef {(context: CanvasRenderingContext2D, view: View, region: Bounds) => Generator<void>} Painter */
+/** @typedef {{view: View, width: number, height: number, ratio: number}} Frame  what a picture is to show, CSS pixels */
 /** @typedef {{canvas: HTMLCanvasElement, context: CanvasRenderingContext2D, view: View | null}} Sheet */
+
+/**
+ * @typedef {Object} Artist
+ * @property {(context: CanvasRenderingContext2D, view: View, region: Bounds) => void} paint  at once
+ * @property {(frame: Frame) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
+ * @property {() => void} [ready]  an ordered picture has come
+ */
 
 const MARGIN = 96;
 
 export class Surface {
+  visible = true;
   /** @type {Sheet} */
   #front;
   /** @type {Sheet} */
   #back;
-  /** @type {Generator<void> | null} */
-  #work = null;
   /** @type {Size} */
   #size = { width: 0, height: 0 };
   #ratio = 1;
   #stale = true;
-  #paint;
-  visible = true;
+  /** The order being carried out, and what has changed since. @type {{repairs: Bounds[]} | null} */
+  #job = null;
+  #artist;
 
   /**
    * @param {HTMLElement} host
-   * @param {Painter} paint
+   * @param {Artist} artist
    */
-  constructor(host, paint) {
-    this.#paint = paint;
+  constructor(host, artist) {
+    this.#artist = artist;
     this.#front = sheet(host);
     this.#back = sheet(host);
   }
 
-  /** The picture is of something else now. */
+  /** The picture is of something else now; the old one stays until the new one is there. */
   discard() {
     this.#stale = true;
-    this.#work = null;
+    this.#job = null;
   }
 
-  /** Nothing is to be seen until the next picture is complete. */
+  /** Nothing is to be seen until the next picture is there. */
   blank() {
     this.discard();
     this.#front.view = null;
@@ -59,66 +66,80 @@ export class Surface {
   }
 
   /**
-   * Shows the picture as `view` wants it, drawing for at most `budget` ms.
+   * Shows the picture as `view` wants it.
    *
    * @param {View} view
    * @param {Size} size
    * @param {number} ratio device pixels per CSS pixel
-   * @param {number} budget
-   * @returns {boolean} whether the picture is complete and sharp
+   * @returns {boolean} whether the picture is up to date and sharp
    */
-  show(view, size, ratio, budget) {
+  show(view, size, ratio) {
     if (size.width !== this.#size.width || size.height !== this.#size.height || ratio !== this.#ratio) {
       this.#size = size;
       this.#ratio = ratio;
       this.discard();
     }
-    if (!this.#stale && this.#front.view && covers(this.#front.view, view)) this.#work = null;
-    else this.#draw(view, budget);
+    const good = !this.#stale && this.#front.view !== null && covers(this.#front.view, view);
+    if (!good) this.#renew(view);
     this.#place(view);
-    return this.#work === null;
-  }
-
-  /** @type {(view: View, budget: number) => void} */
-  #draw(view, budget) {
-    if (!this.#work || !this.#back.view || !covers(this.#back.view, view)) this.#begin(view);
-    const until = performance.now() + budget;
-    while (this.#work && performance.now() < until) {
-      if (this.#work.next().done) this.#finish();
-    }
+    return good || !this.#artist.order;
   }
 
   /** @type {(view: View) => void} */
-  #begin(view) {
-    const back = this.#back;
-    const { width, height } = sheetSize(this.#size);
-    back.canvas.width = Math.round(width * this.#ratio);
-    back.canvas.height = Math.round(height * this.#ratio);
-    back.canvas.style.width = `${width}px`;
-    back.canvas.style.height = `${height}px`;
-    back.view = view;
-    const own = ownView(view);
-    back.context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
-    this.#work = this.#paint(back.context, own, visibleBounds(own, { width, height }));
+  #renew(view) {
+    const { order, paint } = this.#artist;
+    const frame = { view: ownView(view), ...sheetSize(this.#size), ratio: this.#ratio };
+    if (!order) {
+      this.#swap(view, (context) => paint(context, frame.view, visibleBounds(frame.view, frame)));
+    } else if (!this.#job) {
+      /** @type {{repairs: Bounds[]}} */
+      const job = { repairs: [] };
+      this.#job = job;
+      void order(frame).then((bitmap) => this.#take(job, view, bitmap));
+    }
   }
 
-  #finish() {
+  /** @type {(job: {repairs: Bounds[]}, view: View, bitmap: ImageBitmap) => void} */
+  #take(job, view, bitmap) {
+    if (this.#job === job) {
+      this.#job = null;
+      this.#swap(view, (context) => {
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.drawImage(bitmap, 0, 0);
+        context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
+      });
+      this.repair(job.repairs);
+      this.#artist.ready?.();
+    }
+    bitmap.close();
+  }
+
+  /** @type {(view: View, draw: (context: CanvasRenderingContext2D) => void) => void} */
+  #swap(view, draw) {
     [this.#front, this.#back] = [this.#back, this.#front];
+    const { canvas, context } = this.#front;
+    const { width, height } = sheetSize(this.#size);
+    canvas.width = Math.round(width * this.#ratio);
+    canvas.height = Math.round(height * this.#ratio);
+    canvas.style.width = `${width}px`;
+    canvas.style.height = `${height}px`;
+    context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
+    draw(context);
+    this.#front.view = view;
     this.#back.canvas.hidden = true;
-    this.#work = null;
     this.#stale = false;
   }
 
   /** @type {(view: View) => void} */
   #place(view) {
-    const drawn = this.#front.view;
-    this.#front.canvas.hidden = !drawn || !this.visible;
+    const { canvas, view: drawn } = this.#front;
+    canvas.hidden = !drawn || !this.visible;
     if (!drawn) return;
     const stretch = view.scale / drawn.scale;
     const x = view.x - (drawn.x + MARGIN) * stretch;
     const y = view.y - (drawn.y + MARGIN) * stretch;
     const transform = `translate(${x}px, ${y}px)${stretch === 1 ? "" : ` scale(${stretch})`}`;
-    if (this.#front.canvas.style.transform !== transform) this.#front.canvas.style.transform = transform;
+    if (canvas.style.transform !== transform) canvas.style.transform = transform;
   }
 
   /**
@@ -127,11 +148,10 @@ export class Surface {
    * @param {Bounds[]} rects
    */
   repair(rects) {
-    if (this.#work) this.discard();
+    this.#job?.repairs.push(...rects);
     const { view, context } = this.#front;
     if (!view || this.#stale) return;
-    const own = ownView(view);
-    for (const rect of mergedRects(rects)) this.#repairOne(context, own, rect);
+    for (const rect of mergedRects(rects)) this.#repairOne(context, ownView(view), rect);
   }
 
   /** @type {(context: CanvasRenderingContext2D, view: View, rect: Bounds) => void} */
@@ -139,19 +159,17 @@ export class Surface {
     const { width, height } = sheetSize(this.#size);
     const [left, top] = toScreen(view, rect.x0, rect.y0).map((value) => Math.max(0, Math.floor(value) - 4));
     const [x1, y1] = toScreen(view, rect.x1, rect.y1);
-    const right = Math.min(width, Math.ceil(x1) + 4);
-    const bottom = Math.min(height, Math.ceil(y1) + 4);
-    if (right <= left || bottom <= top) return;
-    const region = visibleBounds(
-      { ...view, x: view.x - left, y: view.y - top },
-      { width: right - left, height: bottom - top },
-    );
+    const size = {
+      width: Math.min(width, Math.ceil(x1) + 4) - left,
+      height: Math.min(height, Math.ceil(y1) + 4) - top,
+    };
+    if (size.width <= 0 || size.height <= 0) return;
     context.save();
     context.beginPath();
-    context.rect(left, top, right - left, bottom - top);
+    context.rect(left, top, size.width, size.height);
     context.clip();
-    context.clearRect(left, top, right - left, bottom - top);
-    for (const work = this.#paint(context, view, region); !work.next().done; );
+    context.clearRect(left, top, size.width, size.height);
+    this.#artist.paint(context, view, visibleBounds({ ...view, x: view.x - left, y: view.y - top }, size));
     context.restore();
   }
 }
@@ -182,22 +200,13 @@ function covers(drawn, wanted) {
   return close && drawn.scale === wanted.scale;
 }
 
-/** @type {(rects: Bounds[]) => Bounds[]} */
+/** Overlapping rectangles as one. @type {(rects: Bounds[]) => Bounds[]} */
 function mergedRects(rects) {
   /** @type {Bounds[]} */
-  const merged = [];
-  for (let rect of rects) {
-    for (let i = merged.length - 1; i >= 0; i--) {
-      if (!overlap(merged[i], rect)) continue;
-      const [other] = merged.splice(i, 1);
-      rect = {
-        x0: Math.min(rect.x0, other.x0),
-        y0: Math.min(rect.y0, other.y0),
-        x1: Math.max(rect.x1, other.x1),
-        y1: Math.max(rect.y1, other.y1),
-      };
-    }
-    merged.push(rect);
+  let merged = [];
+  for (const rect of rects) {
+    const touching = merged.filter((other) => overlap(other, rect));
+    merged = [...merged.filter((other) => !overlap(other, rect)), touching.reduce(joined, rect)];
   }
   return merged;
 }

@@ -7,27 +7,23 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 
-from app.bench.chromium import FLAGS, REMEDY, find
-from tests.browser.server import Server, fairyring
-from tests.browser.tab import Tab
+from app.bench.serving import Server
+from app.bench.tab import Tab, chromium
+from app.demo import make_demo
 
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    path = find()
-    assert path is not None, REMEDY
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=str(path), args=list(FLAGS))
-        yield chromium
-        chromium.close()
+    with chromium() as launched:
+        yield launched
 
 
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("beds") / "beds"
-    fairyring("demo", folder, "--count", "3", "--seed", "7")
+    folder = tmp_path_factory.mktemp("made") / "beds"
+    make_demo(folder, count=3, seed=7)
     return folder
 
 

@@ -1,0 +1,70 @@
+"""A project served in a process of its own, for benchmarks and tests; it may be killed and started again."""
+
+from __future__ import annotations
+
+import signal
+import socket
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from urllib.request import urlopen
+
+START_S = 60.0
+
+
+def free_port() -> int:
+    """A port nobody listens on just now."""
+    with socket.socket() as listening:
+        listening.bind(("127.0.0.1", 0))
+        return listening.getsockname()[1]
+
+
+@dataclass
+class Server:
+    """``fairyring serve``, at the same port every time it is started."""
+
+    project: Path
+    port: int = field(default_factory=free_port)
+    process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def url(self) -> str:
+        """Where the browser goes."""
+        return f"http://127.0.0.1:{self.port}"
+
+    def start(self) -> None:
+        """Starts it and waits until it answers; ConnectionError if it does not."""
+        command = [sys.executable, "-c", "from app.cli import main; main()"]
+        self.process = subprocess.Popen([*command, "serve", str(self.project), "--port", str(self.port)])
+        deadline = time.monotonic() + START_S
+        while not self._answers():
+            if self.process.poll() is not None or time.monotonic() > deadline:
+                raise ConnectionError(f"{self.project} could not be served.")
+            time.sleep(0.05)
+
+    def kill(self) -> None:
+        """As a power cut would: SIGKILL."""
+        assert self.process is not None, "it has been started"
+        self.process.kill()
+        self.process.wait()
+
+    def stop(self) -> int:
+        """As Ctrl+C would; returns the exit code."""
+        assert self.process is not None, "it has been started"
+        self.process.send_signal(signal.SIGINT)
+        return self.process.wait(timeout=20)
+
+    def memory_mb(self) -> float:
+        """Resident memory of the server's process."""
+        assert self.process is not None, "it has been started"
+        ps = ["ps", "-o", "rss=", "-p", str(self.process.pid)]
+        return int(subprocess.check_output(ps, text=True)) / 1024
+
+    def _answers(self) -> bool:
+        try:
+            with urlopen(f"{self.url}/healthz", timeout=1) as answer:
+                return answer.status == 200
+        except OSError:
+            return False

@@ -1,0 +1,186 @@
+"""How the store does in a project of 10 000 images and 500 000 caps.
+
+Each figure stands beside a plain reference of the same run: the same rows read, or written and synced,
+by bare ``sqlite3``; the same file parsed by ``json``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sqlite3
+import tempfile
+import time
+import uuid
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from app.bench.timing import Row, milliseconds, p95_row, row
+from app.editing import derive_edits
+from storage.documents import load_document
+from storage.images import ImageFilter, list_images
+from storage.importing import import_paths
+from storage.journal import commit
+from storage.project import DATABASE, Project, create_project
+from storage.records import Cap, Document, Edit
+
+WIDTH, HEIGHT = 320, 240
+CAPS = 50
+VERTICES = 20
+
+
+def run(*, quick: bool = False) -> list[Row]:
+    """The table: list, open, edit, import. Writes to a temporary folder (about 1.5 GB)."""
+    count = 200 if quick else 10_000
+    with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
+        labels = write_labels(Path(folder), images=count)
+        with create_project(Path(folder) / "project") as project:
+            rows = [_import(project, labels)]
+            documents = _documents(project, count)
+            rows += [
+                _list(project, count),
+                _open(project, [document.image.id for document in documents]),
+                _edit(project, documents, Path(folder)),
+            ]
+        return rows
+
+
+def write_labels(folder: Path, *, images: int) -> Path:
+    """A COCO file beside ``images`` photos, each of 50 caps of 20 vertices; returns its path."""
+    photo = np.random.default_rng(0).integers(0, 255, (HEIGHT, WIDTH, 3), np.uint8)
+    encoded = cv2.imencode(".jpg", photo)[1].tobytes()
+    names = [f"bed_{i:05}.jpg" for i in range(images)]
+    for name in names:
+        (folder / name).write_bytes(encoded)
+    document = {
+        "images": [
+            {"id": i + 1, "file_name": name, "width": WIDTH, "height": HEIGHT} for i, name in enumerate(names)
+        ],
+        "categories": [{"id": 1, "name": "mushroom"}],
+        "annotations": [_annotation(i, cap) for i in range(images) for cap in range(CAPS)],
+    }
+    labels = folder / "labels.json"
+    labels.write_text(json.dumps(document))
+    return labels
+
+
+def _annotation(image: int, cap: int) -> dict:
+    x, y = 16 + 31 * (cap % 10), 20 + 45 * (cap // 10)
+    outline = []
+    for k in range(VERTICES):
+        angle = 2 * math.pi * k / VERTICES
+        radius = 14 + 2 * math.sin(3 * angle + image)
+        outline += [round(x + radius * math.cos(angle), 2), round(y + radius * math.sin(angle), 2)]
+    xs, ys = outline[0::2], outline[1::2]
+    return {
+        "id": image * CAPS + cap + 1,
+        "image_id": image + 1,
+        "category_id": 1,
+        "segmentation": [outline],
+        "bbox": [min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys)],
+        "area": 615.0,
+        "iscrowd": 0,
+    }
+
+
+def _import(project: Project, labels: Path) -> Row:
+    photos = sorted(labels.parent.glob("*.jpg"))
+    import_paths(project, photos, link=True)
+    start = time.perf_counter()
+    document = json.loads(labels.read_bytes())
+    parsed_in = time.perf_counter() - start
+    count = len(document["annotations"])
+    start = time.perf_counter()
+    report = import_paths(project, [labels])
+    taken = time.perf_counter() - start
+    assert report.annotations == count, report.problems
+    return row(
+        "import of COCO, validation included (reference: json.loads)",
+        count / taken,
+        unit="annotations/s",
+        target=5000,
+        reference=count / parsed_in,
+    )
+
+
+def _documents(project: Project, count: int) -> list[Document]:
+    ids = np.random.default_rng(1).choice(np.arange(1, count + 1), size=100, replace=False)
+    with project.read() as connection:
+        return [load_document(connection, int(image_id)) for image_id in ids]
+
+
+def _list(project: Project, count: int) -> Row:
+    filters = [
+        ImageFilter(),
+        ImageFilter(search="77"),
+        ImageFilter(sort="caps", descending=True),
+        ImageFilter(sort="cdr", descending=True),
+        ImageFilter(status="annotated", annotated=True),
+    ]
+    pages = [(which, offset) for which in filters for offset in range(0, count, max(1, count // 10))]
+
+    def page(wanted: tuple[ImageFilter, int]) -> None:
+        with project.read() as connection:
+            list_images(connection, wanted[0], offset=wanted[1], limit=50)
+
+    with sqlite3.connect(project.folder / DATABASE) as plain:
+        query = "SELECT * FROM image ORDER BY sort_name LIMIT 50 OFFSET ?"
+        reference = milliseconds(lambda wanted: plain.execute(query, (wanted[1],)).fetchall(), pages)
+    return p95_row(
+        "a page of the list (reference: bare SELECT)",
+        milliseconds(page, pages),
+        target=100,
+        reference=reference,
+    )
+
+
+def _open(project: Project, ids: list[int]) -> Row:
+    def open_image(image_id: int) -> None:
+        with project.read() as connection:
+            load_document(connection, image_id)
+
+    with sqlite3.connect(project.folder / DATABASE) as plain:
+        query = "SELECT * FROM annotation WHERE image = ? AND deleted = 0"
+        reference = milliseconds(lambda image_id: plain.execute(query, (image_id,)).fetchall(), ids)
+    taken = milliseconds(open_image, ids)
+    return p95_row("open an image (reference: bare SELECT)", taken, target=50, reference=reference)
+
+
+def _edit(project: Project, documents: list[Document], folder: Path) -> Row:
+    edits = [_moved(document) for document in documents]
+
+    def save(edit: Edit) -> None:
+        commit(project, derive_edits(project, [edit]), user="bench")
+
+    reference = _plain_inserts(folder / "plain.db", payload=json.dumps(edits[0].cap and edits[0].cap.visible))
+    return p95_row(
+        "an edit worked out and on disk (reference: one synced INSERT)",
+        milliseconds(save, edits),
+        target=50,
+        reference=reference,
+    )
+
+
+def _moved(document: Document) -> Edit:
+    annotation = document.annotations[0]
+    visible = [[value + 0.25 for value in part] for part in annotation.cap.visible]
+    return Edit(
+        id=uuid.uuid4().hex,
+        annotation=annotation.uid,
+        image=document.image.id,
+        base=annotation.revision,
+        cap=Cap(visible=visible),
+    )
+
+
+def _plain_inserts(path: Path, *, payload: str) -> list[float]:
+    plain = sqlite3.connect(path, isolation_level=None)
+    plain.execute("PRAGMA journal_mode=WAL")
+    plain.execute("PRAGMA synchronous=FULL")
+    plain.execute("CREATE TABLE edit (id INTEGER PRIMARY KEY, payload TEXT)")
+    insert = "INSERT INTO edit (payload) VALUES (?)"
+    taken = milliseconds(lambda _: plain.execute(insert, (payload,)), range(100))
+    plain.close()
+    return taken
