@@ -63,7 +63,7 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
         distance=settings.camera.distance,
     )
     ground = see_ground(view)
-    planted = _plant(settings, view, _fertile(bounds_of_ground(ground), sowing), rng)
+    planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
     bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
     z = pile_up(planted.seen, planted.owners, bare.z)
     lit = _lit(planted, bare, light, cast_shade(z, planted.owners != 0, light), settings, rng)
@@ -80,26 +80,27 @@ def kind_of(settings: Settings, index: int) -> tuple[str, LightSource]:
     return settings.forms[index % forms], settings.lights[(index + round_) % lights]
 
 
-def _fertile(sight: Rectangle, sowing: Sowing) -> Rectangle:
-    """The soil in sight, up to the bed's edge."""
+def _fertile(sight: Rectangle, sowing: Sowing, *, margin: float) -> Rectangle:
+    """The soil in sight and a margin around it, up to the bed's edge."""
     left, top, right, bottom = sight
+    around = (left - margin, top - margin, right + margin, bottom + margin)
     if sowing.edge is None:
-        return sight
+        return around
     where, side = sowing.edge
-    return (where + 25, top, right, bottom) if side < 0 else (left, top, where - 25, bottom)
+    return (where + 25, *around[1:]) if side < 0 else (*around[:2], where - 25, around[3])
 
 
-def _plant(settings: Settings, view: View, fertile: Rectangle, rng: np.random.Generator) -> _Planted:
+def _plant(
+    settings: Settings, view: View, sight: Rectangle, sowing: Sowing, rng: np.random.Generator
+) -> _Planted:
     """Grows more than is wanted, then picks mushrooms until the count in sight is right."""
     growth = settings.growth
     wanted = int(rng.integers(growth.caps[0], growth.caps[1] + 1))
-    margin = min(growth.diameters[4], 2 * growth.diameters[3]) / 2
-    left, top, right, bottom = fertile
-    around = (left - margin, top - margin, right + margin, bottom + margin)
-    surplus = (around[2] - around[0]) * (around[3] - around[1]) / ((right - left) * (bottom - top))
+    fertile = _fertile(sight, sowing, margin=min(growth.diameters[4], 2 * growth.diameters[3]) / 2)
+    surplus = _area(fertile) / _area(_fertile(sight, sowing, margin=0))
     count = math.ceil(1.25 * wanted * surplus)
     while True:
-        stand = grow(growth, count=count, ground=around, rng=rng)
+        stand = grow(growth, count=count, ground=fertile, rng=rng)
         caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
         layers = stack_layers(caps, stalks, width=view.width, height=view.height)
         owners = own_pixels(layers, width=view.width, height=view.height)
@@ -111,6 +112,11 @@ def _plant(settings: Settings, view: View, fertile: Rectangle, rng: np.random.Ge
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
     return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
+
+
+def _area(ground: Rectangle) -> float:
+    left, top, right, bottom = ground
+    return (right - left) * (bottom - top)
 
 
 def _lit(

@@ -44,7 +44,7 @@ class Pairs(NamedTuple):
 
 
 def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Generator) -> Stand:
-    """``count`` caps on a rectangle of soil, settled so that caps side by side hardly overlap."""
+    """``count`` caps that come up on a rectangle of soil, settled so that side by side they hardly overlap."""
     radius = _draw_diameters(growth, count, rng) / 2
     foot = _sprout(growth, radius, ground, rng)
     # In units of the radius: the large ones have grown over their neighbours.
@@ -85,9 +85,16 @@ def _sprout(growth: Growth, radius: Floats, ground: Rectangle, rng: np.random.Ge
                 angle = rng.uniform(0, 2 * np.pi, TRIALS)
                 apart = growth.spread * (radius[cap] + radius[parent]) * rng.uniform(0.75, 1.25, TRIALS)
                 trials = foot[parent] + apart[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
-            foot[cap] = _roomiest(trials, foot[:cap], radius[:cap])
+            foot[cap] = _roomiest(_kept_inside(trials, ground), foot[:cap], radius[:cap])
         founder = end
     return foot
+
+
+def _kept_inside(points: Floats, ground: Rectangle) -> Floats:
+    """Points (n, 2) outside the rectangle mirrored at its border."""
+    least, most = np.array(ground[:2]), np.array(ground[2:])
+    mirrored = np.where(points < least, 2 * least - points, points)
+    return np.where(mirrored > most, 2 * most - mirrored, mirrored)
 
 
 def _roomiest(trials: Floats, foot: Floats, radius: Floats) -> Floats:

@@ -99,7 +99,8 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     """
     left, top, right, bottom = box
     here = np.s_[top:bottom, left:right]
-    facing = normal @ light.direction
+    x, y, up = light.direction
+    facing = normal[..., 0] * x + normal[..., 1] * y + normal[..., 2] * up
     lit = np.clip((facing + glow) / (1 + glow), 0, None)
     # The softer the light, the further above the edge of a shadow its last ray passes.
     reach = 2.0 + 30.0 * light.softness

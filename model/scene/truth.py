@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 
-from model.geometry import Ellipse, Outline, ellipse_of_rotated_box, part_of_points, points_of_part
+from model.contour.ellipse import least_squares_ellipse
+from model.geometry import Ellipse, Outline, part_of_points, points_of_part
 from model.raster import outline_of_mask
 from model.scene.caps import Box, Cap, polygon_of_cap
 from model.scene.layers import Owners, Seen, window
@@ -60,8 +60,6 @@ def _moved(outline: Outline, box: Box) -> Outline:
 
 
 def _fitted(part: list[float]) -> Ellipse:
-    """OpenCV fits in single precision, so about the outline's own middle."""
-    points = points_of_part(part)
-    middle = points.mean(axis=0)
-    fit = ellipse_of_rotated_box(cv2.fitEllipse((points - middle).astype(np.float32)))
-    return Ellipse(fit.cx + float(middle[0]), fit.cy + float(middle[1]), fit.a, fit.b, fit.theta_deg)
+    ellipse = least_squares_ellipse(points_of_part(part))
+    assert ellipse is not None, "an outline of many directions around a point determines an ellipse"
+    return ellipse
