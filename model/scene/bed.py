@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from model.scene.caps import Cap, Image, shape_caps
 from model.scene.growth import Rectangle, Stand, grow
-from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, window
+from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, strips, window
 from model.scene.lens import draw_shot, expose
 from model.scene.light import Light, Shade, cast_shade, draw_light, shine
 from model.scene.presets import with_form
@@ -124,8 +124,12 @@ def _lit(
 ) -> Image:
     """Linear light of the whole picture: soil first, then every layer over what lies under it."""
     rows, columns = bare.z.shape
-    everything = (0, 0, columns, rows)
-    picture = shine(bare.colour, bare.normal, bare.z, box=everything, light=light, shade=shade, glow=SOIL_GLOW)
+    picture = np.empty((rows, columns, 3), np.float32)
+    for box in strips(rows, columns):
+        here = window(box)
+        picture[here] = shine(
+            bare.colour[here], bare.normal[here], bare.z[here], box=box, light=light, shade=shade, glow=SOIL_GLOW
+        )
     brown = rng.uniform(*settings.skin.brown)
     for part in planted.seen:
         own = float(np.clip(brown * rng.normal(1, 0.12), 0, 1))

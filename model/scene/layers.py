@@ -18,6 +18,9 @@ Owners = NDArray[np.int32]
 """(rows, columns): 0 soil, k + 1 the cap of mushroom k, -(k + 1) its stalk."""
 
 
+STRIP_ROWS = 24
+
+
 class Layer(NamedTuple):
     """A cap or a stalk, cut to the picture."""
 
@@ -98,6 +101,11 @@ def window(box: Box) -> tuple[slice, slice]:
     """A box as an index of an image."""
     left, top, right, bottom = box
     return slice(top, bottom), slice(left, right)
+
+
+def strips(rows: int, columns: int) -> list[Box]:
+    """Boxes that cover an image, few enough rows each that what is worked out there stays in the cache."""
+    return [(0, top, columns, min(top + STRIP_ROWS, rows)) for top in range(0, rows, STRIP_ROWS)]
 
 
 def _layer_of_cap(index: int, cap: Cap, width: int, height: int) -> Layer | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -9,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.scene.caps import Image
+from model.scene.layers import strips, window
 from model.scene.settings import Camera
 
 LEVELS = 4096
@@ -36,7 +39,7 @@ def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
         pitch_deg=rng.uniform(*camera.pitch_deg),
         vignette=rng.uniform(*camera.vignette),
         balance=balance,
-        exposure=camera.exposure * np.exp(0.08 * rng.standard_normal()),
+        exposure=camera.exposure * math.exp(0.08 * rng.standard_normal()),
         focus=rng.uniform(0.4, 0.9),
         jpeg=int(rng.integers(camera.jpeg[0], camera.jpeg[1] + 1)),
     )
@@ -48,10 +51,18 @@ def expose(
     """Linear light (rows, columns, 3) and view z (rows, columns) → an 8-bit BGR photo."""
     rows, columns = z.shape
     seen = _focused(light, z, camera=camera, shot=shot)
-    seen = seen * (shot.exposure * _vignette(rows, columns, shot.vignette))[..., None] * shot.balance
-    seen += _noise(seen, camera.noise * dimness, rng)
-    index = np.clip(seen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
-    return _tone_curve()[index]
+    noise = _noise(rows, columns, rng)
+    falloff = _vignette(rows, columns, shot.vignette)
+    photo = np.empty((rows, columns, 3), np.uint8)
+    for box in strips(rows, columns):
+        here = window(box)
+        fallen = seen[here] * (shot.exposure * falloff[here])[..., None] * shot.balance
+        # Grows with the root of the light.
+        strength = np.sqrt(np.maximum(fallen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7))
+        fallen += noise[here] * (camera.noise * dimness * strength)[..., None]
+        index = np.clip(fallen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
+        photo[here] = np.take(_tone_curve(), index)
+    return photo
 
 
 def _focused(light: Image, z: Image, *, camera: Camera, shot: Shot) -> Image:
@@ -59,14 +70,15 @@ def _focused(light: Image, z: Image, *, camera: Camera, shot: Shot) -> Image:
     sharp = cv2.GaussianBlur(light, (0, 0), camera.sharpness)
     if camera.defocus == 0:
         return sharp
-    low, high = np.percentile(z[::8, ::8], (2, 99))
-    off = np.abs(z - (low + shot.focus * (high - low)))
-    blur = cv2.GaussianBlur(off, (0, 0), 5.0) * np.float32(camera.defocus / 150.0)
+    low, high = np.percentile(z[::8, ::8], (2, 99)).tolist()
+    coarse = cv2.resize(z, None, fx=0.25, fy=0.25, interpolation=cv2.INTER_AREA)
+    off = np.abs(coarse - (low + shot.focus * (high - low)))
+    blur = cv2.GaussianBlur(off, (0, 0), 1.25) * np.float32(camera.defocus / 150.0)
     most = max(float(blur.max()), 1e-3)
-    soft = cv2.GaussianBlur(light, (0, 0), float(np.hypot(camera.sharpness, most)))
-    # Variances add: this mixture of the two has the variance the blur asks for.
-    share = (blur / most) ** 2
-    return sharp + (soft - sharp) * share[..., None]
+    soft = cv2.GaussianBlur(light, (0, 0), math.hypot(camera.sharpness, most))
+    # Variances add: a mixture by this share has the variance the blur asks for.
+    share = cv2.resize((blur / most) ** 2, z.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    return cv2.blendLinear(soft, sharp, share, 1 - share)
 
 
 def _vignette(rows: int, columns: int, amount: float) -> Image:
@@ -75,16 +87,15 @@ def _vignette(rows: int, columns: int, amount: float) -> Image:
     return 1 - amount * ((x * x + y * y) / 2) ** 1.3
 
 
-def _noise(seen: Image, amount: float, rng: np.random.Generator) -> Image:
-    """Grows with the root of the light; mostly in brightness, a little in colour, smeared by demosaicing."""
-    rows, columns, _ = seen.shape
+def _noise(rows: int, columns: int, rng: np.random.Generator) -> Image:
+    """(rows, columns, 3): mostly in brightness, a little in colour, smeared by demosaicing."""
     grey = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
     coarse = rng.standard_normal((rows // 2, columns // 2, 3), np.float32)
     colour = cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
-    strength = np.sqrt(np.maximum(seen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7)) * np.float32(amount)
-    return (2.0 * grey[..., None] + 0.6 * colour) * strength[..., None]
+    return cv2.scaleAdd(colour, 0.3, cv2.merge([grey, grey, grey])) * np.float32(2)
 
 
+@lru_cache(maxsize=1)
 def _tone_curve() -> NDArray[np.uint8]:
     """sRGB with a shoulder: highlights roll off instead of clipping."""
     linear = np.linspace(0, SATURATION, LEVELS)

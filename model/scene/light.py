@@ -57,7 +57,7 @@ class Shade(NamedTuple):
 
 def draw_light(source: LightSource, rng: np.random.Generator) -> Light:
     """A light of one of the three kinds."""
-    azimuth, lift, warmth, slant, power, nearness = rng.random(6)
+    azimuth, lift, warmth, slant, power, nearness = rng.random(6).tolist()
     elevation = np.radians({"top": 58 + 26 * lift, "side": 17 + 17 * lift, "dark": 40 + 40 * lift}[source])
     level = {"top": 0.66 + 0.12 * power, "side": 0.85 + 0.3 * power, "dark": 0.17 + 0.13 * power}[source]
     sky = {"top": 0.30, "side": 0.10 + 0.06 * power, "dark": 0.10}[source]
@@ -118,7 +118,7 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     fill = (1 - opened * (0.6 + 0.4 * normal[..., 2])) * shade.flesh[here] * shade.gain[here]
     deep = np.clip(closed * 1.6 - 0.35, 0, 1)
     bounce = fill[..., None] * (FLESH + (FLESH * FLESH * 0.9 - FLESH) * deep[..., None])
-    return colour * (light.key * (direct[..., None] + 0.62 * bounce) + light.sky * sky[..., None])
+    return colour * (light.key * (direct[..., None] + 0.62 * up * bounce) + light.sky * sky[..., None])
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:

@@ -88,7 +88,7 @@ def _squeezed(settings: Settings) -> Settings:
     return replace(
         settings,
         growth=replace(
-            growth, spread=growth.spread * 0.85, squeeze=1.0, height_spread=0.12, irregularity=0.8
+            growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9
         ),
     )
 

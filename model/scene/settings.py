@@ -35,13 +35,13 @@ class Growth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How many with at least one pixel in sight."""
     diameters: tuple[Positive, Positive, Positive, Positive, Positive] = (13, 27, 56, 104, 200)
     """The 0, 10, 50, 90 and 100 % quantiles."""
-    cluster: Annotated[float, Meta(ge=1)] = 9.0
+    cluster: Annotated[float, Meta(ge=1)] = 6.0
     """Mean number of caps that come up together."""
-    spread: Annotated[float, Meta(ge=0.2, le=2)] = 0.66
+    spread: Annotated[float, Meta(ge=0.2, le=2)] = 1.0
     """Distance of a cap from the one it came up beside, in sums of their radii."""
     height: Annotated[float, Meta(ge=0.4, le=4)] = 1.0
     """Mean height of a cap's middle over the soil, in its own radii."""
-    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.4
+    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.25
     """Standard deviation of that height."""
     lean_deg: Annotated[float, Meta(ge=0, le=60)] = 8.0
     """Standard deviation of a stalk's lean, to either side."""
@@ -73,7 +73,7 @@ class Soil(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Standard deviation of the surface's height, px."""
     mycelium: ShareRange = (0.15, 0.6)
     """How much of it white strands cover."""
-    pinheads: ShareRange = (0.2, 0.7)
+    pinheads: ShareRange = (0.25, 0.85)
     """How densely pinheads and white crumbs stand; below 9 px and not part of the truth."""
     litter: Annotated[int, Meta(ge=0, le=200)] = 14
     """Mean number of straws and roots."""
@@ -96,7 +96,7 @@ class Camera(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Light lost in the corners."""
     noise: Annotated[float, Meta(ge=0, le=10)] = 1.0
     """Sensor noise; 1 is a good camera in good light. Dark light adds to it."""
-    tint: Annotated[float, Meta(ge=0, le=0.5)] = 0.05
+    tint: Annotated[float, Meta(ge=0, le=0.5)] = 0.03
     """Standard deviation of the white balance's error."""
     exposure: Annotated[float, Meta(ge=0.2, le=3)] = 1.0
     jpeg: tuple[Annotated[int, Meta(ge=30, le=100)], Annotated[int, Meta(ge=30, le=100)]] = (84, 95)

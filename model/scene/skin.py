@@ -5,6 +5,7 @@ Colours are linear reflectances, blue first, as OpenCV orders them.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import cv2
@@ -41,7 +42,7 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     blotch, pores = cv2.split(textures.look_up(textures.skin(), x, y))
     top = np.clip(surface.rise / cap.dome, 0, 1)
 
-    tone = 1 + 0.06 * rng.standard_normal()
+    tone = 1 + 0.035 * rng.standard_normal()
     brownness = np.clip(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)[..., None]
     colour = WHITE * (1 - brownness) + BROWN * brownness
     colour = colour * (tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores)[..., None]
@@ -104,24 +105,25 @@ def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -
     """(b) Brown blotches with soft edges, as bacteria leave them."""
     x, y = _turned(surface, rng, zoom=110 / cap.radius)
     patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(textures.grain(), 0.2 * x, 0.2 * y)
-    least = rng.uniform(0.2, 1.1)
-    strength = _step(least, least + 1.3, patches) * rng.uniform(0.6, 1.0)
+    least = rng.uniform(-0.1, 0.9)
+    strength = _step(least, least + 1.3, patches) * rng.uniform(0.7, 1.0)
     ring = _step(least, least + 0.25, patches) * _step(least + 0.6, least + 0.25, patches)
     spotted = _mixed(dress.colour, dress.colour * BLOTCH, strength)
     return dress._replace(colour=_mixed(spotted, spotted * BLOTCH, 0.3 * ring))
 
 
 def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
-    """(c) Crumbs of casing soil carried up on the cap, heaped on one side."""
-    x, y = _turned(surface, rng, zoom=1.4)
-    lumps = textures.look_up(textures.clods(), x, y) + 0.5 * textures.look_up(textures.grain(), x, y)
-    angle, out = rng.uniform(0, 2 * np.pi), cap.radius * rng.uniform(0, 0.7)
-    off = np.hypot(surface.skin_x - out * np.cos(angle), surface.skin_y - out * np.sin(angle))
-    heap = 1.5 - off / (cap.radius * rng.uniform(0.3, 0.8))
-    strength = _step(1.0, 1.5, lumps + np.clip(heap, -2.0, 1.2))
-    colour = DIRT * (1.6 + 0.8 * np.clip(lumps, -1.5, 2.5))[..., None]
-    smear = _mixed(dress.colour, 0.5 * dress.colour * CREAM, 0.4 * _step(0.3, 1.2, lumps + np.clip(heap, -2, 1)))
-    return Dress(_mixed(smear, colour, strength), dress.relief + strength * (2.0 + lumps))
+    """(c) Crumbs of casing soil carried up on the cap, heaped on one side, with a smear around them."""
+    x, y = _turned(surface, rng, zoom=rng.uniform(1.2, 2.4))
+    lumps = textures.look_up(textures.clods(), x, y) + 0.6 * textures.look_up(textures.grain(), x, y)
+    angle, out = rng.uniform(0, 2 * np.pi), cap.radius * rng.uniform(0.2, 1.0)
+    off = np.hypot(surface.skin_x - out * math.cos(angle), surface.skin_y - out * math.sin(angle))
+    heap = np.clip(1.4 - off / (cap.radius * rng.uniform(0.15, 0.55)), -1.2, 1.2)
+    strength = _step(1.5, 2.1, lumps + heap)
+    colour = DIRT * (1.8 + 0.9 * np.clip(lumps, -1.5, 2.5))[..., None]
+    smear = 0.45 * _step(0.6, 2.0, 0.5 * lumps + heap)
+    under = _mixed(dress.colour, 0.35 * dress.colour * CREAM, smear)
+    return Dress(_mixed(under, colour, strength), dress.relief + strength * (2.0 + lumps))
 
 
 def _damage(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:

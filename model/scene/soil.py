@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import cv2
@@ -10,6 +11,7 @@ import numpy as np
 from model.scene import textures
 from model.scene.caps import Image
 from model.scene.growth import Floats
+from model.scene.layers import strips, window
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
@@ -53,11 +55,37 @@ def lay_soil(
     soil: Soil, sowing: Sowing, *, ground: Ground, view: View, feet: Floats, rng: np.random.Generator
 ) -> Bare:
     """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
-    x, y = _wander(ground, rng)
-    relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
+    place = _Wander(*rng.uniform((0, 0, 0), (2 * np.pi, textures.SIZE, textures.SIZE)).tolist())
     near = _nearness(feet, view)
+    colour = np.empty((view.height, view.width, 3), np.float32)
+    height = np.empty((view.height, view.width), np.float32)
+    for box in strips(view.height, view.width):
+        here = window(box)
+        x, y = place.of(ground.x[here], ground.y[here])
+        colour[here], height[here] = _earth(soil, sowing, x, y, near[here])
+        if sowing.edge is not None:
+            _end_bed(colour[here], height[here], ground.x[here], edge=sowing.edge)
+    _scatter_litter(colour, height, count=int(rng.poisson(soil.litter)), rng=rng)
+    return Bare(colour, ground.z + height, _normals(height))
 
-    earth = PEAT + (LOAM - PEAT) * sowing.brightness
+
+class _Wander(NamedTuple):
+    """Where on the tiles a bed lies."""
+
+    angle: float
+    x: float
+    y: float
+
+    def of(self, x: Image, y: Image) -> tuple[Image, Image]:
+        """Places on the tiles of places on the bed."""
+        cosine, sine = math.cos(self.angle), math.sin(self.angle)
+        return x * cosine - y * sine + self.x, x * sine + y * cosine + self.y
+
+
+def _earth(soil: Soil, sowing: Sowing, x: Image, y: Image, near: Image) -> tuple[Image, Image]:
+    """Colour and height of soil, mycelium and pinheads at places on the tiles."""
+    relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
+    earth = PEAT + (LOAM - PEAT) * np.float32(sowing.brightness)
     colour = earth * np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4)[..., None]
     height = 0.5 * soil.relief * relief + 0.5 * grain
 
@@ -66,22 +94,9 @@ def lay_soil(
     height += 3.0 * fluff
 
     rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
-    colour = np.where((rise > 0)[..., None], PINHEAD * (0.75 + 0.4 * tone)[..., None], colour)
-    height += rise
-
-    _scatter_litter(colour, height, count=int(rng.poisson(soil.litter)), rng=rng)
-    if sowing.edge is not None:
-        _end_bed(colour, height, ground, relief, edge=sowing.edge)
-    return Bare(colour.astype(np.float32), (ground.z + height).astype(np.float32), _normals(height))
-
-
-def _wander(ground: Ground, rng: np.random.Generator) -> tuple[Image, Image]:
-    angle = rng.uniform(0, 2 * np.pi)
-    ox, oy = rng.uniform(0, textures.SIZE, 2)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    x = ground.x * cosine - ground.y * sine + ox
-    y = ground.x * sine + ground.y * cosine + oy
-    return x.astype(np.float32), y.astype(np.float32)
+    stands = rise > 0
+    colour[stands] = PINHEAD * (0.75 + 0.4 * tone[stands])[:, None]
+    return colour, height + rise
 
 
 def _nearness(feet: Floats, view: View) -> Image:
@@ -136,18 +151,18 @@ def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.
             window += raised
 
 
-def _end_bed(colour: Image, height: Image, ground: Ground, relief: Image, *, edge: tuple[float, float]) -> None:
-    """Beyond the edge: the dark aisle, and the worn board that holds the soil."""
+def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float]) -> None:
+    """Beyond the edge: the worn board that holds the soil, and the dark aisle."""
     where, side = edge
-    beyond = (ground.x - where) * side + 3 * relief
+    beyond = (x - where) * side + 0.3 * height
     board = (beyond > 0) & (beyond < 12)
-    colour[beyond >= 12] *= 0.15
-    colour[board] = PEAT + (LOAM * np.clip(relief[board], 0.2, 2.5)[:, None] * 0.8)
-    height -= np.clip(beyond, 0, 60).astype(np.float32)
+    colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
+    colour[beyond >= 12] *= 0.1
+    height -= np.clip(beyond, 0, 60)
 
 
 def _normals(height: Image) -> Image:
     slope_x = cv2.Sobel(height, cv2.CV_32F, 1, 0, ksize=3, scale=1 / 8)
     slope_y = cv2.Sobel(height, cv2.CV_32F, 0, 1, ksize=3, scale=1 / 8)
     length = np.sqrt(slope_x * slope_x + slope_y * slope_y + 1)
-    return np.dstack([-slope_x / length, -slope_y / length, 1 / length])
+    return cv2.merge([-slope_x / length, -slope_y / length, 1 / length])
