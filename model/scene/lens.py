@@ -16,6 +16,8 @@ from model.scene.settings import Camera
 
 LEVELS = 4096
 SATURATION = 1.6
+BLACK = 0.0022
+"""Linear light a camera takes for none."""
 """Linear light at which the sensor is full."""
 
 
@@ -97,8 +99,8 @@ def _noise(rows: int, columns: int, rng: np.random.Generator) -> Image:
 
 @lru_cache(maxsize=1)
 def _tone_curve() -> NDArray[np.uint8]:
-    """sRGB with a shoulder: highlights roll off instead of clipping."""
-    linear = np.linspace(0, SATURATION, LEVELS)
+    """sRGB with a toe and a shoulder: shadows go down to black, highlights roll off instead of clipping."""
+    linear = np.maximum(np.linspace(0, SATURATION, LEVELS) - BLACK, 0)
     bright = np.where(linear < 0.6, linear, 0.6 + 0.38 * np.tanh((linear - 0.6) / 0.38))
     srgb = np.where(bright <= 0.0031308, 12.92 * bright, 1.055 * bright ** (1 / 2.4) - 0.055)
     return np.rint(255 * srgb).astype(np.uint8)

@@ -46,7 +46,7 @@ class Shade(NamedTuple):
     """What stands in the light's way, full size."""
 
     ceilings: tuple[Image, ...]
-    """Under each of these z a point is in the shadow of one edge of the light."""
+    """Under each of these z a point is in the shadow of one part of the light."""
     hulls: tuple[Image, ...]
     """Mean z around, one for each of OCCLUDERS."""
     gain: Image
@@ -122,9 +122,9 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:
-    """For the light's lower edge, middle and upper edge: the z under which a point lies in shadow."""
+    """For the light's lower and upper part: the z under which a point lies in its shadow."""
     away = light.direction[:2] / max(float(np.hypot(*light.direction[:2])), 1e-6)
-    slopes = [np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness, 0, light.softness)]
+    slopes = [np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)]
     ceilings = [np.full_like(z, -1e6) for _ in slopes]
     highest = float(z.max() - z.min())
     furthest = min(highest / slopes[0], 320.0)

@@ -16,7 +16,7 @@ from model.scene import textures
 from model.scene.caps import Cap, Image, Surface
 from model.scene.settings import Skin
 
-WHITE = np.array([0.80, 0.82, 0.83], np.float32)
+WHITE = np.array([0.83, 0.825, 0.82], np.float32)
 BROWN = np.array([0.075, 0.165, 0.33], np.float32)
 CREAM = np.array([0.80, 0.93, 1.0], np.float32)
 """What the underside and the flesh keep of white."""

@@ -15,7 +15,7 @@ from model.scene.layers import strips, window
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
-PEAT = np.array([0.0058, 0.0047, 0.0044], np.float32)
+PEAT = np.array([0.0112, 0.0092, 0.0090], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)
 MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
 PINHEAD = np.array([0.62, 0.68, 0.70], np.float32)
@@ -123,11 +123,9 @@ def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, 
 def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
     """Height and tone of pinheads and crumbs, thickest around the caps."""
     rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
-    other, other_tone = cv2.split(textures.look_up(textures.crumbs(), 1.4 * y + 211, 1.4 * x + 97))
-    region = 1.8 * amount - 1.75 + 0.75 * cloud + 0.9 * near
-    first = np.where(region > 0.1, 1.25 * rise, 0)
-    second = np.where(region > 0.6, 0.8 * other, 0)
-    return np.maximum(first, second), np.where(first >= second, tone, other_tone)
+    # Each crumb needs a region of its own richness, so that they thin out instead of being cut off.
+    region = 1.8 * amount - 1.35 + 0.75 * cloud + 0.9 * near
+    return np.where(region > 0.9 * tone, 1.25 * rise, 0), tone
 
 
 def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
@@ -157,7 +155,7 @@ def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float
     beyond = (x - where) * side + 0.3 * height
     board = (beyond > 0) & (beyond < 12)
     colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
-    colour[beyond >= 12] *= 0.1
+    colour[beyond >= 12] *= 0.04
     height -= np.clip(beyond, 0, 60)
 
 
