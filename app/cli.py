@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands import benchmarks, demo, project, serve
+from app.commands import benchmarks, demo, project, serve, synth
 from app.commands.version import print_version
 from model.errors import FairyringError
 
@@ -26,6 +26,7 @@ app.command("serve")(serve.serve)
 app.command("export")(project.export)
 app.command("backup")(project.backup)
 app.command("demo")(demo.demo)
+app.command("synth")(synth.synth)
 app.add_typer(benchmarks.commands, name="bench")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -37,6 +38,24 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
     from app.bench import editor as bench
 
     _print("editor", bench.run(quick=quick), as_json=as_json)
+
+
+@commands.command()
+def scene(
+    *,
+    real: Annotated[
+        Path | None, typer.Option(help="Folder of real photos with checked.json, to compare with.")
+    ] = None,
+    quick: Quick = False,
+    as_json: AsJson = False,
+) -> None:
+    """Time the renderer of beds, and measure its beds against real ones.
+
+    Example: `fairyring bench scene --json`
+    """
+    from app.bench import scene as bench
+
+    _print("scene", bench.run(quick=quick, real=real), as_json=as_json)
 
 
 def _print(title: str, rows: list[dict[str, Any]], *, as_json: bool) -> None:

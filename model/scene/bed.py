@@ -1,0 +1,152 @@
+"""Renders one bed: grows it, hangs the camera, lights it, takes the photo and tells the truth about it."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.scene.caps import Cap, Image, shape_caps
+from model.scene.growth import Rectangle, Stand, grow
+from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, strips, window
+from model.scene.lens import draw_shot, expose
+from model.scene.light import Light, Shade, cast_shade, draw_light, shine
+from model.scene.presets import with_form
+from model.scene.settings import LightSource, Settings
+from model.scene.skin import Dress, bend_normals, dress_cap, dress_stalk
+from model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
+from model.scene.stalks import shape_stalks
+from model.scene.truth import BedCap, tell_truth
+from model.scene.view import View, bounds_of_ground, hang_camera, see_ground
+
+FLESH_GLOW = 0.18
+SOIL_GLOW = 0.05
+
+
+class Bed(NamedTuple):
+    """A photo and the truth about it."""
+
+    image: NDArray[np.uint8]
+    """(height, width, 3), blue first."""
+    caps: tuple[BedCap, ...]
+    """From the lowest to the highest."""
+    owners: Owners
+    light: LightSource
+    form: str
+    jpeg: int
+    """Quality to write it at."""
+
+
+class _Planted(NamedTuple):
+    """The mushrooms of a bed in the view, and whose each pixel is."""
+
+    stand: Stand
+    caps: list[Cap]
+    seen: list[Seen]
+    owners: Owners
+
+
+def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
+    """Bed number ``index`` of a set: the same numbers give the same bytes, whatever else is rendered."""
+    form, source = kind_of(settings, index)
+    settings = with_form(settings, form)
+    rng = np.random.default_rng([seed, index])
+    shot = draw_shot(settings.camera, rng)
+    light = draw_light(source, rng)
+    sowing = draw_sowing(settings.soil, width=settings.width, rng=rng)
+    view = hang_camera(
+        width=settings.width,
+        height=settings.height,
+        pitch_deg=shot.pitch_deg,
+        distance=settings.camera.distance,
+    )
+    ground = see_ground(view)
+    planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
+    bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
+    z = pile_up(planted.seen, planted.owners, bare.z)
+    lit = _lit(planted, bare, light, cast_shade(z, planted.owners != 0, light), settings, rng)
+    image = expose(lit, z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
+    told = tell_truth(planted.caps, planted.seen, planted.owners)
+    return Bed(image, told, planted.owners, source, form, shot.jpeg)
+
+
+def kind_of(settings: Settings, index: int) -> tuple[str, LightSource]:
+    """Form and light of image ``index``: every pair of them in turn, equally often."""
+    forms, lights = len(settings.forms), len(settings.lights)
+    # Where the two cycles fall into step, the lights move on by one, so that no pair is left out.
+    round_ = index // math.lcm(forms, lights)
+    return settings.forms[index % forms], settings.lights[(index + round_) % lights]
+
+
+def _fertile(sight: Rectangle, sowing: Sowing, *, margin: float) -> Rectangle:
+    """The soil in sight and a margin around it, up to the bed's edge."""
+    left, top, right, bottom = sight
+    around = (left - margin, top - margin, right + margin, bottom + margin)
+    if sowing.edge is None:
+        return around
+    where, side = sowing.edge
+    return (where + 25, *around[1:]) if side < 0 else (*around[:2], where - 25, around[3])
+
+
+def _plant(
+    settings: Settings, view: View, sight: Rectangle, sowing: Sowing, rng: np.random.Generator
+) -> _Planted:
+    """Grows more than is wanted, then picks mushrooms until the count in sight is right."""
+    growth = settings.growth
+    wanted = int(rng.integers(growth.caps[0], growth.caps[1] + 1))
+    fertile = _fertile(sight, sowing, margin=min(growth.diameters[4], 2 * growth.diameters[3]) / 2)
+    surplus = _area(fertile) / _area(_fertile(sight, sowing, margin=0))
+    count = math.ceil(1.25 * wanted * surplus)
+    while True:
+        stand = grow(growth, count=count, ground=fertile, rng=rng)
+        caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
+        layers = stack_layers(caps, stalks, width=view.width, height=view.height)
+        owners = own_pixels(layers, width=view.width, height=view.height)
+        in_sight = np.unique(owners[owners > 0]) - 1
+        if len(in_sight) >= wanted:
+            break
+        count = math.ceil(1.2 * count)
+    kept = set(rng.permutation(in_sight)[:wanted].tolist())
+    left_over = [layer for layer in layers if layer.mushroom in kept]
+    owners = own_pixels(left_over, width=view.width, height=view.height)
+    return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
+
+
+def _area(ground: Rectangle) -> float:
+    left, top, right, bottom = ground
+    return (right - left) * (bottom - top)
+
+
+def _lit(
+    planted: _Planted, bare: Bare, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
+) -> Image:
+    """Linear light of the whole picture: soil first, then every layer over what lies under it."""
+    rows, columns = bare.z.shape
+    picture = np.empty((rows, columns, 3), np.float32)
+    for box in strips(rows, columns):
+        here = window(box)
+        picture[here] = shine(
+            bare.colour[here], bare.normal[here], bare.z[here], box=box, light=light, shade=shade, glow=SOIL_GLOW
+        )
+    brown = rng.uniform(*settings.skin.brown)
+    for part in planted.seen:
+        own = float(np.clip(brown * rng.normal(1, 0.12), 0, 1))
+        dress = _dressed(part, planted.caps[part.layer.mushroom], settings, own, rng)
+        _lay(picture, part, dress, light, shade)
+    return picture
+
+
+def _dressed(part: Seen, cap: Cap, settings: Settings, brown: float, rng: np.random.Generator) -> Dress:
+    if part.layer.is_cap:
+        return dress_cap(cap, part.surface, settings.skin, brown=brown, rng=rng)
+    return dress_stalk(part.surface, brown=brown, rng=rng)
+
+
+def _lay(picture: Image, part: Seen, dress: Dress, light: Light, shade: Shade) -> None:
+    surface = part.surface
+    normal = bend_normals(surface.normal, dress.relief.astype(np.float32))
+    lit = shine(dress.colour, normal, surface.z, box=part.box, light=light, shade=shade, glow=FLESH_GLOW)
+    here = window(part.box)
+    picture[here] += (lit - picture[here]) * surface.cover[..., None]

@@ -1,0 +1,113 @@
+"""Settings with a name, and what each of the paper's eight forms (Figure 3) changes in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from msgspec.structs import replace
+
+from model.scene.settings import Camera, Growth, SceneError, Settings, Skin, Soil
+
+PRESETS: dict[str, Settings] = {
+    "default": Settings(),
+    "paper": Settings(growth=Growth(caps=(50, 65), diameters=(16, 32, 68, 118, 200), cluster=8.0)),
+    "farm": Settings(
+        forms=("",),
+        lights=("top",),
+        growth=Growth(
+            caps=(225, 265),
+            diameters=(13, 26, 44.5, 68, 107),
+            cluster=9.0,
+            spread=0.98,
+            height=1.0,
+            height_spread=0.27,
+            lean_deg=7.0,
+            squeeze=0.3,
+            irregularity=0.45,
+        ),
+        skin=Skin(brown=(0.0, 0.03), specks=3.0, scales=0.0, spots=0.0, soil=0.004, damage=0.004),
+        soil=Soil(
+            brightness=(0.0, 0.12),
+            relief=7.0,
+            mycelium=(0.1, 0.4),
+            pinheads=(0.45, 0.8),
+            litter=8,
+            edge=0.6,
+        ),
+        camera=Camera(pitch_deg=(0.0, 6.0), distance=1.3, vignette=(0.1, 0.3), tint=0.02, jpeg=(88, 95)),
+    ),
+}
+"""``default`` is a mixture; ``paper`` is the data set of section 3; ``farm`` is like real photos of a farm."""
+
+
+def preset(name: str) -> Settings:
+    """Raises SceneError where there is no such preset."""
+    if name not in PRESETS:
+        raise SceneError(f"There is no preset {name!r}; choose one of {', '.join(PRESETS)}.")
+    return PRESETS[name]
+
+
+def with_form(settings: Settings, form: str) -> Settings:
+    """The settings of one image with the paper's forms a–h applied, one after the other."""
+    for letter in form:
+        settings = _FORMS[letter](settings)
+    return settings
+
+
+def _scales(settings: Settings) -> Settings:
+    return replace(settings, skin=replace(settings.skin, scales=0.85))
+
+
+def _spots(settings: Settings) -> Settings:
+    return replace(settings, skin=replace(settings.skin, spots=0.8))
+
+
+def _soil(settings: Settings) -> Settings:
+    return replace(settings, skin=replace(settings.skin, soil=0.75, specks=min(settings.skin.specks * 4, 40)))
+
+
+def _clumped(settings: Settings) -> Settings:
+    growth = settings.growth
+    return replace(
+        settings,
+        growth=replace(growth, cluster=growth.cluster * 2.2, spread=growth.spread * 0.8, squeeze=0.7),
+    )
+
+
+def _uneven(settings: Settings) -> Settings:
+    growth = settings.growth
+    median, largest = growth.diameters[2], max(growth.diameters[4], 200.0)
+    least, tenth, _, ninetieth, _ = (median * (d / median) ** 1.3 for d in growth.diameters)
+    least, ninetieth = max(least, 10.0), min(ninetieth, 0.8 * largest)
+    diameters = (least, max(tenth, least), median, ninetieth, largest)
+    return replace(settings, growth=replace(growth, diameters=diameters, height_spread=0.8))
+
+
+def _squeezed(settings: Settings) -> Settings:
+    growth = settings.growth
+    return replace(
+        settings,
+        growth=replace(
+            growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9
+        ),
+    )
+
+
+def _tilted(settings: Settings) -> Settings:
+    return replace(settings, growth=replace(settings.growth, lean_deg=36.0, height=1.9, cluster=4.0))
+
+
+def _damaged(settings: Settings) -> Settings:
+    return replace(settings, skin=replace(settings.skin, damage=0.7))
+
+
+_FORMS: dict[str, Callable[[Settings], Settings]] = {
+    "a": _scales,
+    "b": _spots,
+    "c": _soil,
+    "d": _clumped,
+    "e": _uneven,
+    "f": _squeezed,
+    "g": _tilted,
+    "h": _damaged,
+}

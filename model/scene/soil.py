@@ -1,0 +1,166 @@
+"""The casing soil: peat with clods, white mycelium in strands and clumps, pinheads, litter, the bed's edge."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from model.scene import textures
+from model.scene.caps import Image
+from model.scene.growth import Floats
+from model.scene.layers import strips, window
+from model.scene.settings import Soil
+from model.scene.view import Ground, View, project
+
+PEAT = np.array([0.0112, 0.0092, 0.0090], np.float32)
+LOAM = np.array([0.022, 0.034, 0.050], np.float32)
+MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
+PINHEAD = np.array([0.62, 0.68, 0.70], np.float32)
+STRAW = np.array([0.06, 0.16, 0.28], np.float32)
+ROOT = np.array([0.008, 0.013, 0.02], np.float32)
+CRUMB_REACH = 70.0
+"""Pinheads stand about this far around the feet of grown caps, px."""
+
+
+class Bare(NamedTuple):
+    """The bed without caps: colour (rows, columns, 3), view z and normals."""
+
+    colour: Image
+    z: Image
+    normal: Image
+
+
+class Sowing(NamedTuple):
+    """What was drawn for the soil of one image."""
+
+    brightness: float
+    mycelium: float
+    pinheads: float
+    edge: tuple[float, float] | None
+    """x of the bed's edge on the bed, and which side is off it: -1 left, 1 right."""
+
+
+def draw_sowing(soil: Soil, *, width: int, rng: np.random.Generator) -> Sowing:
+    """One image's soil."""
+    has_edge, side, depth = rng.random(3)
+    away = width * (0.04 + 0.1 * depth)
+    edge = ((away, -1.0) if side < 0.5 else (width - away, 1.0)) if has_edge < soil.edge else None
+    return Sowing(rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge)
+
+
+def lay_soil(
+    soil: Soil, sowing: Sowing, *, ground: Ground, view: View, feet: Floats, rng: np.random.Generator
+) -> Bare:
+    """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
+    place = _Wander(*rng.uniform((0, 0, 0), (2 * np.pi, textures.SIZE, textures.SIZE)).tolist())
+    near = _nearness(feet, view)
+    colour = np.empty((view.height, view.width, 3), np.float32)
+    height = np.empty((view.height, view.width), np.float32)
+    for box in strips(view.height, view.width):
+        here = window(box)
+        x, y = place.of(ground.x[here], ground.y[here])
+        colour[here], height[here] = _earth(soil, sowing, x, y, near[here])
+        if sowing.edge is not None:
+            _end_bed(colour[here], height[here], ground.x[here], edge=sowing.edge)
+    _scatter_litter(colour, height, count=int(rng.poisson(soil.litter)), rng=rng)
+    return Bare(colour, ground.z + height, _normals(height))
+
+
+class _Wander(NamedTuple):
+    """Where on the tiles a bed lies."""
+
+    angle: float
+    x: float
+    y: float
+
+    def of(self, x: Image, y: Image) -> tuple[Image, Image]:
+        """Places on the tiles of places on the bed."""
+        cosine, sine = math.cos(self.angle), math.sin(self.angle)
+        return x * cosine - y * sine + self.x, x * sine + y * cosine + self.y
+
+
+def _earth(soil: Soil, sowing: Sowing, x: Image, y: Image, near: Image) -> tuple[Image, Image]:
+    """Colour and height of soil, mycelium and pinheads at places on the tiles."""
+    relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
+    earth = PEAT + (LOAM - PEAT) * np.float32(sowing.brightness)
+    colour = earth * np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4)[..., None]
+    height = 0.5 * soil.relief * relief + 0.5 * grain
+
+    fluff = _mycelium(x, y, cloud, strands, near, amount=sowing.mycelium)
+    colour += (MYCELIUM * (0.8 + 0.15 * grain)[..., None] - colour) * fluff[..., None]
+    height += 3.0 * fluff
+
+    rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
+    stands = rise > 0
+    colour[stands] = PINHEAD * (0.75 + 0.4 * tone[stands])[:, None]
+    return colour, height + rise
+
+
+def _nearness(feet: Floats, view: View) -> Image:
+    """1 where many caps stand, falling to 0 away from them."""
+    coarse = 8
+    image, _, _ = project(view, np.column_stack([feet, np.zeros(len(feet))]))
+    small = np.zeros((-(-view.height // coarse), -(-view.width // coarse)), np.float32)
+    for x, y in image / coarse:
+        cv2.circle(small, (round(float(x)), round(float(y))), 2, 1.0, -1)
+    blurred = cv2.GaussianBlur(small, (0, 0), CRUMB_REACH / coarse / 2)
+    near = np.clip(3 * blurred, 0, 1)
+    return cv2.resize(near, (view.width, view.height), interpolation=cv2.INTER_LINEAR)
+
+
+def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, amount: float) -> Image:
+    """Share of white: strands everywhere a little, felted to clumps in some regions."""
+    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * y, 2.3 * x))
+    region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
+    clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
+    web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
+    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * 0.95
+
+
+def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
+    """Height and tone of pinheads and crumbs, thickest around the caps."""
+    rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
+    # Each crumb needs a region of its own richness, so that they thin out instead of being cut off.
+    region = 1.8 * amount - 1.35 + 0.75 * cloud + 0.9 * near
+    return np.where(region > 0.9 * tone, 1.25 * rise, 0), tone
+
+
+def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
+    """Straws and roots, drawn over the soil."""
+    rows, columns = height.shape
+    for _ in range(count):
+        start = rng.uniform((0, 0), (columns, rows))
+        heading = rng.uniform(0, 2 * np.pi) + np.cumsum(rng.normal(0, 0.25, 6))
+        steps = rng.uniform(4, 16) * np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        line = np.rint(16 * (start + np.vstack([[0, 0], np.cumsum(steps, axis=0)]))).astype(np.int32)
+        thick = int(rng.integers(1, 4))
+        tone = (STRAW if rng.random() < 0.4 else ROOT) * rng.uniform(0.5, 1.3)
+        cv2.polylines(colour, [line], False, tone.tolist(), thick, cv2.LINE_8, 4)
+        raised = np.zeros_like(height[:1, :1])
+        left, top = np.maximum(line.min(axis=0) // 16 - 4, 0)
+        right, bottom = line.max(axis=0) // 16 + 5
+        window = height[top:bottom, left:right]
+        if window.size:
+            raised = np.zeros_like(window)
+            cv2.polylines(raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4)
+            window += raised
+
+
+def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float]) -> None:
+    """Beyond the edge: the worn board that holds the soil, and the dark aisle."""
+    where, side = edge
+    beyond = (x - where) * side + 0.3 * height
+    board = (beyond > 0) & (beyond < 12)
+    colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
+    colour[beyond >= 12] *= 0.04
+    height -= np.clip(beyond, 0, 60)
+
+
+def _normals(height: Image) -> Image:
+    slope_x = cv2.Sobel(height, cv2.CV_32F, 1, 0, ksize=3, scale=1 / 8)
+    slope_y = cv2.Sobel(height, cv2.CV_32F, 0, 1, ksize=3, scale=1 / 8)
+    length = np.sqrt(slope_x * slope_x + slope_y * slope_y + 1)
+    return cv2.merge([-slope_x / length, -slope_y / length, 1 / length])
