@@ -9,6 +9,7 @@ from sqlalchemy import Connection
 
 from app.gateway.messages import Show
 from app.gateway.photos import url_of_photo
+from app.nearby import Boxes
 from app.session import Selection, Session
 from app.workspace import Workspace
 from storage import images
@@ -35,6 +36,7 @@ async def open_image(
     document, place, ahead = await workspace.read(query)
     session.document = document
     session.annotations = {annotation.uid: annotation for annotation in document.annotations}
+    session.boxes = Boxes()
     session.position, session.count = place.position, place.count
     session.selection = Selection(annotation=select)
     session.send(
