@@ -57,6 +57,8 @@ export class Desk {
     selection: signal(),
     /** @type {import("./signal.js").Signal<[Shape]>} */
     draft: signal(),
+    /** @type {import("./signal.js").Signal<[]>} */
+    nudge: signal(),
   };
 
   /** @type {Shape[] | null} */
@@ -174,15 +176,20 @@ export class Desk {
 
   /** Forgets what was proposed. */
   withdraw() {
-    clearTimeout(this.#nudging);
+    this.#calm();
     const shapes = [...this.drafts.values()];
     this.drafts.clear();
     if (shapes.length) this.signals.shapes.emit(shapes);
   }
 
+  #calm() {
+    clearTimeout(this.#nudging);
+    this.#nudging = 0;
+  }
+
   /** Commits what was proposed, as one step. */
   settle() {
-    clearTimeout(this.#nudging);
+    this.#calm();
     if (this.drafts.size === 0) return;
     const changes = [...this.drafts.values()].flatMap((draft) => {
       const before = this.item(draft.uid);
@@ -252,6 +259,12 @@ export class Desk {
     this.propose(moved);
     clearTimeout(this.#nudging);
     this.#nudging = window.setTimeout(() => this.settle(), NUDGE_SETTLES_MS);
+    this.signals.nudge.emit();
+  }
+
+  /** Caps nudged and not committed yet: no more saved than an edit on its way. */
+  get unsettled() {
+    return this.#nudging ? this.drafts.size : 0;
   }
 
   /** @type {(view: View) => void} */

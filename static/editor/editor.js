@@ -104,7 +104,7 @@ export class Editor {
     expose(host, {
       desk: this.#desk,
       frame: this.#frame,
-      waiting: () => this.#sync.waiting,
+      waiting: () => this.#unsaved,
       connection: () => this.#transport.state,
       tool: () => this.#tool.name,
     });
@@ -147,6 +147,7 @@ export class Editor {
   #listen() {
     const { signals } = this.#desk;
     signals.selection.listen(() => this.#tellSelection());
+    signals.nudge.listen(() => this.#progress());
     signals.draft.listen(({ uid, cap }) => {
       const image = this.#desk.image?.id;
       if (image !== undefined && !placedWhole(cap)) this.#refits.ask({ image, annotation: uid, cap });
@@ -230,8 +231,13 @@ export class Editor {
     this.#progress();
   }
 
+  get #unsaved() {
+    return this.#sync.waiting + this.#desk.unsettled;
+  }
+
   #progress() {
-    const { waiting, kept, clashes } = this.#sync;
+    const { kept, clashes } = this.#sync;
+    const waiting = this.#unsaved;
     this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
     this.#card.update(clashes, this.#desk.image?.id ?? 0);
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting })) this.#waiting = waiting;
