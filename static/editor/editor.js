@@ -84,7 +84,10 @@ export class Editor {
     });
     this.#refits = new Refits(send);
     this.#photos = new Photos(() => this.#frame.redrawPhoto());
-    this.#frame = new Frame(host, this.#desk, this.#photos, () => [this.#tool.sketch ?? (() => null), this.#card.sketch]);
+    this.#frame = new Frame(host, this.#desk, this.#photos, () => [
+      this.#tool.sketch ?? (() => null),
+      this.#card.sketch,
+    ]);
     this.#say = noticesIn(host);
     this.#status = statusIn(host);
     this.#card = new ConflictCard(host, {
@@ -96,8 +99,17 @@ export class Editor {
     this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#tool);
     this.#pressed = pressedButtons(() => this.#tool.name);
     const run = this.#makeRunner();
-    listenToKeys({ run, desk: this.#desk, pointer: this.#pointer, blame: (at) => this.#frame.blame(at, "key") });
-    listenToPanel({ run, use: (name) => this.#use(name), open: (image, select) => this.#open(image, select) });
+    listenToKeys({
+      run,
+      desk: this.#desk,
+      pointer: this.#pointer,
+      blame: (at) => this.#frame.blame(at, "key"),
+    });
+    listenToPanel({
+      run,
+      use: (name) => this.#use(name),
+      open: (image, select) => this.#open(image, select),
+    });
     this.run = run;
     this.#listen();
     this.#progress();
@@ -240,10 +252,15 @@ export class Editor {
     const waiting = this.#unsaved;
     this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
     this.#card.update(clashes, this.#desk.image?.id ?? 0);
-    if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting })) this.#waiting = waiting;
+    if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))
+      this.#waiting = waiting;
   }
 
-  /** Opening the outbox takes a moment, and no document may overtake it. @type {(message: FromServer) => void} */
+  /**
+   * Opening the outbox takes a moment, and no document may overtake it.
+   *
+   * @type {(message: FromServer) => void}
+   */
   #receiveInOrder(message) {
     if (message.type === "welcome") this.#ready = this.#welcome(message.project);
     else if (this.#ready) void this.#ready.then(() => this.#receive(message));

@@ -18,7 +18,7 @@ Call = Callable[..., Any]
 
 
 class _Quiet(SimpleHTTPRequestHandler):
-    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name in the base class
+    def log_message(self, *_args: object) -> None:
         """Says nothing."""
 
 

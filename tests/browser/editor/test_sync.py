@@ -1,4 +1,4 @@
-"""Store, history, outbox and a server that loses connections: whatever happens, both sides end up the same."""
+"""Store, history and outbox against a server that loses connections: both sides end up the same."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ WORLD = """
   const {Store} = await import('/editor/store.js');
   const {Outbox} = await import('/editor/outbox.js');
   const {newCap} = await import('/editor/caps.js');
-  const {changed} = await import('/editor/desk.js');
+  const {changed} = await import('/editor/shapes.js');
 
   /** The journal as the server keeps it. */
   const journal = new Map(), seen = new Map();
