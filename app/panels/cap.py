@@ -136,11 +136,13 @@ def summary(session: Session) -> Markup:
     """What the image on screen holds, while nothing is selected."""
     assert session.document is not None
     live = [a for a in session.annotations.values() if not a.deleted]
+    real = [a for a in live if not a.cap.ignored]
     touched = {a.cap.prediction for a in session.annotations.values()}
     waiting = sum(p.id not in touched for p in session.document.predictions)
     facts: Facts = [
-        ("Caps", f"{len(live)}, {sum(a.cap.mark is not None for a in live)} marked"),
-        ("Predictions", f"{waiting} not looked at" if waiting else "all looked at"),
+        ("Caps", f"{len(real)}, {sum(a.cap.mark is not None for a in real)} marked"),
+        ("Ignored", len(live) - len(real)),
+        ("Predictions", f"{waiting} open" if waiting else "none open"),
     ]
     return _inspector(element("span", "Nothing selected", class_="fr-quiet"), facts=facts)
 
