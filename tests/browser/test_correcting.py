@@ -12,8 +12,11 @@ from app.bench.tab import Tab, centroid
 from tests.browser.kept import journal_of, kept_cap, live_caps
 
 
+CORNERS = [(12.0, 12.0), (52.0, 10.0), (58.0, 40.0), (30.0, 55.0), (8.0, 38.0)]
+
+
 def a_free_prediction(tab: Tab) -> dict:
-    """A prediction well inside the photo, large, and not touching another one's box."""
+    """The prediction of the most vertices whose box touches no other's."""
     predictions = tab.state("predictions")
     boxes = [_box(p["cap"]["visible"]) for p in predictions]
     return max(
@@ -65,21 +68,45 @@ def test_accepting_a_prediction_makes_it_an_annotation(tab: Tab, project: Path) 
     assert kept["centre_x"] is not None
 
 
+def draw_outline(tab: Tab) -> str:
+    """Draws a cap of five corners on bare soil by clicks and returns its uid."""
+    tab.press("w")
+    for corner in CORNERS:
+        tab.click(corner)
+    tab.press("Enter")
+    tab.wait_for("window.fairyring.state.shapes.length === 1")
+    tab.saved()
+    return tab.state("shapes")[0]["uid"]
+
+
 def test_a_dragged_vertex_is_on_disk_where_it_was_dropped(tab: Tab, project: Path) -> None:
-    uid = promote(tab)
-    shape = tab.shape(uid)
-    assert shape is not None
-    part = shape["cap"]["visible"][0]
-    corner, target = (part[0], part[1]), (part[0] + 9.0, part[1] - 6.0)
-    tab.select(centroid(part))
-    tab.press("z")
-    tab.drag(corner, target)
+    uid = draw_outline(tab)
+    tab.press("v")
+    tab.select(centroid([value for corner in CORNERS for value in corner]))
+    tab.drag(CORNERS[0], (5.0, 20.0))
     tab.saved()
     kept = kept_cap(project, uid)
     assert kept is not None
     assert kept["revision"] == 2
+    moved = [value for corner in [(5.0, 20.0), *CORNERS[1:]] for value in corner]
+    assert kept["visible"][0] == pytest.approx(moved, abs=1.5)
+
+
+def test_a_vertex_dragged_with_alt_moves_alone_in_a_dense_outline(tab: Tab, project: Path) -> None:
+    uid = promote(tab)
+    shape = tab.shape(uid)
+    assert shape is not None
+    part = shape["cap"]["visible"][0]
+    tab.select(centroid(part))
+    tab.press("z")
+    tab.page.keyboard.down("Alt")
+    tab.drag((part[0], part[1]), (part[0] + 9.0, part[1] - 6.0))
+    tab.page.keyboard.up("Alt")
+    tab.saved()
+    kept = kept_cap(project, uid)
+    assert kept is not None
     assert kept["visible"][0][2:] == part[2:]
-    assert kept["visible"][0][:2] == pytest.approx(target, abs=1.0)
+    assert kept["visible"][0][:2] == pytest.approx((part[0] + 9.0, part[1] - 6.0), abs=1.0)
 
 
 def test_the_centre_follows_while_a_vertex_is_dragged(tab: Tab) -> None:
@@ -100,18 +127,13 @@ def test_the_centre_follows_while_a_vertex_is_dragged(tab: Tab) -> None:
 
 
 def test_a_cap_drawn_by_clicks_is_on_disk(tab: Tab, project: Path) -> None:
-    corners = [(12.0, 12.0), (52.0, 10.0), (58.0, 40.0), (30.0, 55.0), (8.0, 38.0)]
-    tab.press("w")
-    for corner in corners:
-        tab.click(corner)
-    tab.press("Enter")
-    tab.wait_for("window.fairyring.state.shapes.length === 1")
-    tab.saved()
-    [uid] = live_caps(project)
+    uid = draw_outline(tab)
+    assert live_caps(project) == [uid]
     kept = kept_cap(project, uid)
     assert kept is not None
-    drawn = [value for corner in corners for value in corner]
+    drawn = [value for corner in CORNERS for value in corner]
     assert kept["visible"][0] == pytest.approx(drawn, abs=1.0)
+    assert kept["centre_x"] == pytest.approx(32.0, abs=6.0)
 
 
 def test_a_circle_dragged_from_the_centre_of_a_cap_is_its_mark(tab: Tab, project: Path) -> None:

@@ -104,30 +104,30 @@ def test_tabs_on_different_images_do_not_mix(
 def test_two_edits_of_one_cap_become_a_conflict_that_shows_both(
     server: Server, open_tab: Callable[..., Tab], project: Path
 ) -> None:
-    ada = open_tab(server, name="Ada")
+    ada, ben = open_tab(server, name="Ada"), open_tab(server, name="Ben")
     draw_circle(ada, (60.0, 60.0), 20.0)
     ada.saved()
     [shape] = ada.state("shapes")
-    ben = open_tab(server, name="Ben")
+    ben.wait_for("window.fairyring.state.shapes.length === 1")
 
-    # Ada's line is cut; both move the cap; Ada's edit reaches the server second.
-    ada.page.context.set_offline(True)
-    ada.press("v")
-    ada.select((60.0, 60.0))
-    ada.press("ArrowRight")
-    ben.page.bring_to_front()
-    ben.select((60.0, 60.0))
-    ben.press("Shift+ArrowDown")
+    server.kill()
+    for tab, key in ((ada, "ArrowRight"), (ben, "Shift+ArrowDown")):
+        tab.wait_for(f"!({BACK})")
+        tab.press("Escape", "v")
+        tab.select((60.0, 60.0))
+        tab.press(key)
+    server.start()
+    reconnect(ben)
     ben.saved()
     theirs = kept_cap(project, shape["uid"])
     assert theirs is not None
-    ada.page.context.set_offline(False)
-    ada.page.bring_to_front()
-    ada.wait_for(BACK)
+    assert theirs["edited_by"] == "Ben"
+    reconnect(ada)
     ada.page.get_by_role("button", name="Keep mine").click()
     ada.saved()
     kept = kept_cap(project, shape["uid"])
     assert kept is not None
     assert kept["edited_by"] == "Ada"
-    assert kept["mark"]["cx"] == pytest.approx(theirs["mark"]["cx"] + 0.25)
+    assert kept["mark"]["cx"] == pytest.approx(shape["cap"]["mark"]["cx"] + 0.25)
+    assert kept["mark"]["cy"] == pytest.approx(shape["cap"]["mark"]["cy"])
     assert kept["revision"] == theirs["revision"] + 1
