@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from math import isfinite
+from pathlib import Path
+
+import msgspec
 from msgspec import Struct
+
+from model.errors import FairyringError
 
 
 class Priors(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -32,3 +38,26 @@ DEFAULT = Priors(
     wobble=(0.015, 0.010, 0.007),
     size=0.2,
 )
+
+
+class PriorsError(FairyringError):
+    """A file of priors that cannot be used."""
+
+
+def read_priors(path: Path) -> Priors:
+    """What ``write_priors`` wrote; PriorsError with the file's name if it is anything else."""
+    try:
+        priors = msgspec.json.decode(path.read_bytes(), type=Priors)
+    except OSError as error:
+        raise PriorsError(f"{path} cannot be read: {error.strerror}.") from error
+    except msgspec.MsgspecError as error:
+        raise PriorsError(f"{path} holds no priors ({error}). Make some with fairyring priors.") from error
+    widths = (priors.stretch, priors.stretch_hidden, priors.size, priors.noise_floor, *priors.wobble)
+    if not all(isfinite(width) and width > 0 for width in widths) or priors.noise_length < 0:
+        raise PriorsError(f"{path} has a width that is not above zero. Make it again with fairyring priors.")
+    return priors
+
+
+def write_priors(priors: Priors, path: Path) -> None:
+    """As JSON, one figure a line."""
+    path.write_bytes(msgspec.json.format(msgspec.json.encode(priors), indent=2) + b"\n")

@@ -1,8 +1,8 @@
 """The `map` method: all caps of an image together.
 
-First every cap is fitted to what is surely its own rim; then each border between two caps is given to the one
-in front, or to both where they only touch, and all are fitted again. How noisy the masks are, and how far from
-round the caps, is measured on the way.
+First every cap is fitted to what is surely its own rim; then each border between two caps is given to the
+one in front, or to both where they only touch, and all are fitted again. How noisy the masks are, and how far
+from round the caps, is measured on the way.
 """
 
 from __future__ import annotations
