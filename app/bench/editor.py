@@ -35,7 +35,7 @@ CROWDS = {
 
 def run(*, quick: bool = False) -> list[Row]:
     """The table: pointer to drawn, release to saved, move to fit, image to image."""
-    moves, edits, switches = (25, 6, 3) if quick else (200, 50, 12)
+    moves, edits, switches = (10, 2, 1) if quick else (200, 50, 12)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as name, chromium() as browser:
         folder = Path(name)
         beds = [bed for bed, _ in CROWDS.values()]

@@ -32,7 +32,7 @@ from storage.records import Cap, Document, Edit
 
 def run(*, quick: bool = False) -> list[Row]:
     """The table: import, list, open, edit, leaf through. Writes to a temporary folder (about 1.5 GB)."""
-    count, leafed = (200, 10) if quick else (10_000, 100)
+    count, leafed = (100, 3) if quick else (10_000, 100)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
         labels = write_labels(Path(folder) / "photos", _beds(count))
         with create_project(Path(folder) / "project") as project:
