@@ -15,8 +15,8 @@ from model.errors import FairyringError
 log = logging.getLogger(__name__)
 
 UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
-SETTLES_S = 0.03
-"""What happens in quick succession is drawn once, and after the editor has had its answer."""
+SETTLES_S = 0.1
+"""What happens in quick succession is drawn once, and after the editor has drawn what it was sent."""
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
 Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
