@@ -59,5 +59,5 @@ def main() -> None:
         typer.echo(f"fairyring: {error}", err=True)
         sys.exit(1)
     except KeyboardInterrupt:
-        typer.echo("fairyring: stopped; nothing half-done was kept.", err=True)
+        typer.echo("fairyring: stopped.", err=True)
         sys.exit(130)
