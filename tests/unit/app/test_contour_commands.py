@@ -1,0 +1,87 @@
+import gzip
+import json
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from app.bench.contour import run
+from app.commands import contour
+from model.geometry import Circle, polygon_of_shape
+
+commands = typer.Typer()
+commands.command("contour")(contour.contour)
+commands.command("priors")(contour.priors)
+commands.command("centres")(contour.evaluate_centres)
+
+
+def labels() -> dict:
+    return {
+        "images": [{"id": 1, "file_name": "a.png", "width": 200, "height": 100}],
+        "annotations": [
+            {"id": 5, "image_id": 1, "segmentation": [polygon_of_shape(Circle(cx=60, cy=50, r=20))]},
+            {"id": 6, "image_id": 1, "segmentation": [polygon_of_shape(Circle(cx=140, cy=50, r=30))]},
+        ],
+    }
+
+
+@pytest.fixture
+def masks(tmp_path: Path) -> Path:
+    path = tmp_path / "masks.json.gz"
+    path.write_bytes(gzip.compress(json.dumps(labels()).encode()))
+    return path
+
+
+def invoke(*arguments: object):
+    return CliRunner().invoke(commands, [str(argument) for argument in arguments])
+
+
+def test_centres_found_from_masks_compare_with_the_truth_by_id(masks: Path, tmp_path: Path):
+    out = tmp_path / "centres.json"
+    assert invoke("contour", masks, "--out", out).exit_code == 0
+    truth = labels()
+    truth["annotations"][0]["circle"] = [60, 50, 20]
+    truth["annotations"][1]["circle"] = [142, 50, 30]
+    (tmp_path / "truth.json").write_text(json.dumps(truth))
+    told = invoke("centres", out, tmp_path / "truth.json", "--by", "id", "--json")
+    assert told.exit_code == 0
+    figures = json.loads(told.stdout)
+    # The second cap is 2 px off in an image 200 px wide: 1 %, the first 0 %.
+    assert figures["cdr"]["mean"] == pytest.approx(0.5, abs=0.1)
+    assert figures["matched"] == 2
+    assert "CDR" in invoke("centres", out, tmp_path / "truth.json", "--by", "id").stdout
+
+
+@pytest.mark.parametrize("text", [b"", b"{", b"\x1f\x8b broken", b"[1]"])
+def test_a_file_that_holds_no_masks_is_named_and_nothing_is_written(tmp_path: Path, text: bytes):
+    (tmp_path / "odd.json").write_bytes(text)
+    failed = invoke("contour", tmp_path / "odd.json", "--out", tmp_path / "out.json")
+    assert isinstance(failed.exception, contour.FileError)
+    assert "odd.json" in str(failed.exception)
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_a_missing_file_is_named(tmp_path: Path):
+    failed = invoke("contour", tmp_path / "nowhere.json", "--out", tmp_path / "out.json")
+    assert "nowhere.json cannot be read" in str(failed.exception)
+
+
+def test_a_compressed_output_is_compressed(masks: Path, tmp_path: Path):
+    out = tmp_path / "centres.json.gz"
+    invoke("contour", masks, "--out", out, "--method", "enclosing")
+    assert len(json.loads(gzip.decompress(out.read_bytes()))["annotations"]) == 2
+
+
+def test_priors_from_too_few_caps_are_refused_with_the_files_name(masks: Path, tmp_path: Path):
+    failed = invoke("priors", masks, "--out", tmp_path / "priors.json")
+    assert "masks.json.gz: Priors need 30 caps" in str(failed.exception)
+
+
+def test_the_benchmark_finds_map_the_best_of_the_methods():
+    rows = run(quick=True)
+    assert {row["method"] for row in rows} == {"map", "paper", "literal", "ellipse", "enclosing"}
+    for masks in {row["masks"] for row in rows}:
+        ranked = sorted((row for row in rows if row["masks"] == masks), key=lambda row: row["cdr_mean"])
+        assert ranked[0]["method"] == "map"
+        assert 0.6 < ranked[0]["rms_z"] < 1.5
