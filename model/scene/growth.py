@@ -19,6 +19,8 @@ Rectangle = tuple[float, float, float, float]
 SETTLING_STEPS = 36
 TRIALS = 5
 """Places every cap may come up in, of which it takes the roomiest."""
+STEEPEST = 1.6
+"""Slope of the most tilted cap: 58 degrees."""
 FLATNESS = 0.75
 """A cap is lower than it is wide, so two meet above each other sooner than their radii say."""
 
@@ -52,8 +54,10 @@ def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Genera
     lean = np.tan(np.radians(np.clip(growth.lean_deg * rng.standard_normal((count, 2)), -55, 55)))
     wanted = np.column_stack([foot + lean * rise[:, None], rise])
     place = _settle(wanted, radius, give=0.2 * growth.squeeze)
-    stalk = place - np.column_stack([foot, np.zeros(count)])
-    axis = np.column_stack([0.5 * lean + 0.5 * stalk[:, :2] / stalk[:, 2:], np.ones(count)])
+    # A cap faces half where it grew to and half where its neighbours left its stalk to point.
+    slope = 0.5 * lean + 0.5 * (place[:, :2] - foot) / place[:, 2:]
+    slope *= np.minimum(1, STEEPEST / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-9))
+    axis = np.column_stack([slope, np.ones(count)])
     return Stand(radius, foot, place, axis / np.linalg.norm(axis, axis=1, keepdims=True))
 
 

@@ -117,7 +117,7 @@ def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, 
     region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
     clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
     web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
-    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * 0.95
+    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * min(0.95, 8 * amount)
 
 
 def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
@@ -125,7 +125,8 @@ def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -
     rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
     # Each crumb needs a region of its own richness, so that they thin out instead of being cut off.
     region = 1.8 * amount - 1.35 + 0.75 * cloud + 0.9 * near
-    return np.where(region > 0.9 * tone, 1.25 * rise, 0), tone
+    least = 0.9 * tone + 20 * max(0.0, 0.1 - amount)
+    return np.where(region > least, 1.25 * rise, 0), tone
 
 
 def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
