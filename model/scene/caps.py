@@ -82,9 +82,12 @@ def shape_caps(stand: Stand, view: View, growth: Growth, rng: np.random.Generato
 
 
 def polygon_of_cap(cap: Cap) -> list[float]:
-    """The whole outline as one part, also where it is hidden or outside the image."""
+    """The whole outline as one part, also where it is hidden or outside the image.
+
+    On a grid of 1/256 px: there sums with whole numbers are exact, so that it rasterises alike wherever it is moved.
+    """
     points = cap.outline[:, None] * np.column_stack([np.cos(DIRECTIONS), np.sin(DIRECTIONS)])
-    return part_of_points(points + cap.centre[:2])
+    return part_of_points(np.rint((points + cap.centre[:2]) * 256) / 256)
 
 
 def surface_of_cap(cap: Cap, box: Box) -> Surface:

@@ -16,6 +16,7 @@ from typing import Any
 
 import cv2
 import msgspec
+import msgspec.structs
 
 from model.geometry import area_of_outline, bounds_of_outline
 from model.scene.bed import Bed, render_bed
@@ -61,18 +62,16 @@ def write_beds(
 
 def annotation_of_cap(cap: BedCap) -> dict[str, Any]:
     """A cap in the contracts' keys, but for its id and its image's."""
-    visible = _rounded(cap.visible)
-    x, y, width, height = bounds_of_outline(visible)
-    ellipse = cap.ellipse
+    x, y, width, height = bounds_of_outline(cap.visible)
     return {
         "category_id": 1,
-        "segmentation": visible,
-        "area": round(area_of_outline(visible), DECIMALS),
-        "bbox": _rounded([[x, y, width, height]])[0],
+        "segmentation": cap.visible,
+        "area": round(area_of_outline(cap.visible), DECIMALS),
+        "bbox": _rounded(x, y, width, height),
         "iscrowd": 0,
-        "center": _rounded([list(cap.centre)])[0],
-        "ellipse": _rounded([[ellipse.cx, ellipse.cy, ellipse.a, ellipse.b, ellipse.theta_deg]])[0],
-        "amodal_segmentation": _rounded([cap.whole]),
+        "center": _rounded(*cap.centre),
+        "ellipse": _rounded(*msgspec.structs.astuple(cap.ellipse)),
+        "amodal_segmentation": [cap.whole],
         "visible_fraction": round(cap.visible_fraction, 4),
         "occlude_rate": round(1 - cap.visible_fraction, 4),
         "order": cap.order,
@@ -188,5 +187,5 @@ def _join(out: Path, head: dict[str, Any], count: int) -> None:
     shutil.rmtree(out / PARTS)
 
 
-def _rounded(outline: list[list[float]]) -> list[list[float]]:
-    return [[round(value, DECIMALS) for value in part] for part in outline]
+def _rounded(*numbers: float) -> list[float]:
+    return [round(number, DECIMALS) for number in numbers]

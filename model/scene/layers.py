@@ -72,12 +72,16 @@ def own_pixels(layers: Iterable[Layer], *, width: int, height: int) -> Owners:
 def look_at(layers: Iterable[Layer], owners: Owners, caps: list[Cap], stalks: list[Stalk]) -> list[Seen]:
     """The layers with a pixel in sight, from the lowest to the highest, with their surfaces there."""
     rows, columns = owners.shape
+    lowest = int(owners.min())
+    pixels = np.bincount((owners - lowest).ravel())
     seen = []
     for layer in layers:
+        if not lowest <= layer.owner < lowest + len(pixels) or pixels[layer.owner - lowest] == 0:
+            continue
         left, top, _, _ = layer.box
         x, y, wide, high = cv2.boundingRect((owners[window(layer.box)] == layer.owner).astype(np.uint8))
         box = _cut((left + x - 1, top + y - 1, left + x + wide + 1, top + y + high + 1), columns, rows)
-        if wide and box:
+        if box:
             surface = (
                 surface_of_cap(caps[layer.mushroom], box)
                 if layer.is_cap

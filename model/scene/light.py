@@ -103,7 +103,7 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     facing = normal[..., 0] * x + normal[..., 1] * y + normal[..., 2] * up
     lit = np.clip((facing + glow) / (1 + glow), 0, None)
     # The softer the light, the further above the edge of a shadow its last ray passes.
-    reach = 2.0 + 30.0 * light.softness
+    reach = 2.0 + 70.0 * light.softness
     blocked = sum(np.clip((ceiling[here] - z) / reach + 0.5, 0, 1) for ceiling in shade.ceilings)
     nearer = 1 + 2 * np.clip(z, -50, 300) / light.height
     direct = lit * (1 - blocked / len(shade.ceilings)) * shade.gain[here] * nearer

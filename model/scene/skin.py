@@ -47,7 +47,7 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     colour = WHITE * (1 - brownness) + BROWN * brownness
     colour = colour * (tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores)[..., None]
     colour = _mixed(colour, colour * CREAM, _step(0.16, -0.12, surface.rise) * 0.8)
-    dress = Dress(colour, 0.05 * pores)
+    dress = Dress(colour, 0.05 * pores + 0.4 * blotch)
 
     marks = np.random.default_rng(seed)
     for chance, share, carry in zip(
@@ -86,19 +86,21 @@ def bend_normals(normal: Image, relief: Image) -> Image:
 
 
 def _specks(dress: Dress, x: Image, y: Image, *, density: float) -> Dress:
-    dark, value = cv2.split(textures.look_up(textures.specks(), x, y))
-    return dress._replace(colour=_mixed(dress.colour, DIRT * 2, dark * (value < density)))
+    dark, value, clumps = cv2.split(textures.look_up(textures.specks(), x, y))
+    return dress._replace(colour=_mixed(dress.colour, DIRT * 2, dark * (value < density * (1 + 0.6 * clumps))))
 
 
 def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
-    """(a) The skin torn into brownish plates, most of all between top and rim."""
-    x, y = _turned(surface, rng, zoom=26 / (0.30 * cap.radius + 6))
-    edge, value = cv2.split(textures.look_up(textures.plates(), x, y))
-    ragged = edge + 0.8 * textures.look_up(textures.grain(), 2 * x, 2 * y)
-    plate = _step(1.0, 3.2, ragged) * (0.35 + 0.65 * value)
-    where = _step(-0.9, 0.5, textures.look_up(textures.cloud(), x, y) + 0.6 * rng.standard_normal())
-    strength = plate * where * rng.uniform(0.45, 0.9)
-    return Dress(_mixed(dress.colour, dress.colour * TAN * 1.7, strength), dress.relief + 2.2 * strength)
+    """(a) The skin torn into brownish flakes that lift at one edge, more in some places than in others."""
+    x, y = _turned(surface, rng, zoom=26 / (0.13 * cap.radius + 5))
+    bend = textures.look_up(textures.cloud(), 2 * x, 2 * y)
+    edge, value = cv2.split(textures.look_up(textures.plates(), x + 9 * bend, y - 9 * bend))
+    flake = _step(0.2, 4.5, edge + 1.1 * textures.look_up(textures.grain(), 2 * x, 2 * y))
+    where = _step(-0.6, 1.2, textures.look_up(textures.cloud(), 0.25 * x, 0.25 * y) + 0.5 * rng.standard_normal())
+    strength = flake * where * _step(0.15, 0.9, value) * rng.uniform(0.5, 0.95)
+    tip = strength * _step(3.5, 0.5, edge)
+    colour = _mixed(dress.colour, dress.colour * TAN * 1.6, 0.8 * strength)
+    return Dress(_mixed(colour, dress.colour * TAN * 0.8, 0.6 * tip), dress.relief + 1.6 * strength)
 
 
 def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -147,13 +149,13 @@ def _cut(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> 
 
 def _scrape(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     along, across = _place_on(cap, surface, rng)
-    ragged = 0.10 * textures.look_up(textures.cloud(), 4 * along, 4 * across)
-    size = cap.radius * rng.uniform(0.15, 0.38)
+    ragged = 0.22 * textures.look_up(textures.cloud(), 5 * along, 5 * across)
+    size = cap.radius * rng.uniform(0.12, 0.32)
     off = np.hypot(along / (size * rng.uniform(1.0, 2.2)), across / size) + ragged
-    bare, rim = _step(1.0, 0.9, off), _step(1.15, 1.0, off) * _step(0.82, 0.95, off)
+    bare, rim = _step(1.05, 0.9, off), _step(1.2, 1.0, off) * _step(0.75, 1.0, off)
     fibres = 0.9 + 0.08 * textures.look_up(textures.grain(), 0.4 * along, 1.5 * across)
     flesh = _mixed(dress.colour, (WHITE * CREAM * CREAM) * fibres[..., None] * rng.uniform(0.5, 0.85), bare)
-    return Dress(_mixed(flesh, BRUISE, 0.7 * rim), dress.relief - 0.06 * cap.radius * bare)
+    return Dress(_mixed(flesh, BRUISE, 0.35 * rim), dress.relief - 0.06 * cap.radius * bare)
 
 
 def _bruise(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:

@@ -96,7 +96,8 @@ def plates() -> Tile:
 
 @lru_cache(maxsize=None)
 def specks() -> Tile:
-    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1]."""
+    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1],
+    channel 2 clouds by which they gather."""
     rng = np.random.default_rng(70)
     cells = 512 // SPECK_CELL
     value = np.kron(rng.random((cells, cells)), np.ones((SPECK_CELL, SPECK_CELL)))
@@ -104,13 +105,13 @@ def specks() -> Tile:
     offset = np.arange(SPECK_CELL) + 0.5 - SPECK_CELL / 2
     for row in range(cells):
         for column in range(cells):
-            (x, y), angle = rng.uniform(-2.5, 2.5, 2), rng.uniform(0, np.pi)
+            (x, y), angle = rng.uniform(-5.5, 5.5, 2), rng.uniform(0, np.pi)
             long, wide = rng.lognormal(0.2, 0.45), rng.lognormal(-0.25, 0.35)
             dx, dy = np.meshgrid(offset - x, offset - y)
             along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
             spot = np.clip(1.4 - np.hypot(along / long, across / wide), 0, 1) * rng.uniform(0.5, 1.0)
             dark[row * SPECK_CELL :, column * SPECK_CELL :][:SPECK_CELL, :SPECK_CELL] = spot
-    return _closed(np.dstack([dark, value]))
+    return _closed(np.dstack([dark, value, cloud()[: len(dark), : len(dark)]]))
 
 
 @lru_cache(maxsize=None)
@@ -124,7 +125,9 @@ def crumbs() -> Tile:
     for x, y in middle[rng.integers(0, len(middle), count)] + rng.normal(0, 7.0, (count, 2)):
         radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
         _raise_crumb(height, value, x, y, radius=radius, rng=rng)
-    return _closed(np.dstack([height, value]))
+    # Each value reaches a little beyond its crumb, so that between pixels it does not fade at the crumb's rim.
+    beyond = cv2.dilate(value, np.ones((5, 5), np.uint8))
+    return _closed(np.dstack([height, np.where(height > 0, value, beyond)]))
 
 
 def _raise_crumb(height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator) -> None:

@@ -44,12 +44,13 @@ def tell_truth(caps: list[Cap], seen: list[Seen], owners: Owners) -> tuple[BedCa
 def _cap_as_seen(cap: Cap, part: Seen, owners: Owners, order: int) -> BedCap:
     whole = polygon_of_cap(cap)
     mask = (owners[window(part.box)] == part.layer.owner).astype(np.uint8)
+    count = int(mask.sum())
     return BedCap(
-        visible=_moved(outline_of_mask(mask), part.box),
+        visible=[whole] if count == part.layer.area else _moved(outline_of_mask(mask), part.box),
         whole=whole,
         ellipse=_fitted(whole),
         order=order,
-        visible_fraction=int(mask.sum()) / part.layer.area,
+        visible_fraction=count / part.layer.area,
         diameter=2 * (part.layer.area / np.pi) ** 0.5,
     )
 
