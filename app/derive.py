@@ -7,11 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
+
+import msgspec
 
 from app.gateway.messages import Fit, Refit
 from app.nearby import keys_near
+from app.scene import Scene, scene_of
 from model.contour.marks import whole_of_mark
 from model.contour.reconstruct import Reconstruction, reconstruct
 from model.geometry import Circle, GeometryError, Polygon
@@ -22,7 +25,7 @@ from storage.errors import StoreError
 from storage.images import get_image
 from storage.journal import Derived
 from storage.project import Project
-from storage.records import Annotation, Document, Edit, Image, Mark, Outline, Shape
+from storage.records import Annotation, Cap, Edit, Image, Mark, Outline, Shape
 
 Key = TypeVar("Key")
 Progress = Callable[[int, int, str], None]
@@ -43,35 +46,26 @@ class Whole:
         return (self.shape.cx, self.shape.cy) if self.shape else None
 
 
-def whole_of(visible: Outline, mark: Mark | None, *, image: Image, around: Mapping[str, Outline]) -> Whole:
-    """The whole outline of one cap, which is checked first: the rasteriser must never see anything wild.
+def whole_of(uid: str, cap: Cap, scene: Scene) -> Whole:
+    """The whole outline of one cap among the others of its image.
 
-    ``around`` holds the visible outlines of the image's other caps, checked before.
+    The cap is checked first, as the rasteriser must never see anything wild; the scene was checked before.
     """
-    size = {"width": image.width, "height": image.height}
+    size = {"width": scene.image.width, "height": scene.image.height}
     try:
-        if mark is not None:
-            return _from_mark(check_mark(mark, **size))
-        outline = check_outline(visible, **size)
+        if cap.mark is not None:
+            return _from_mark(check_mark(cap.mark, **size))
+        outline = check_outline(cap.visible, **size)
     except GeometryError as error:
         return Whole(None, str(error))
-    neighbours = [around[key] for key in keys_near(outline, around, reach=REACH)]
-    return _wholes([outline, *neighbours], [0], image=image)[0]
+    others = scene.around(uid, prediction=cap.prediction)
+    near = keys_near(outline, others, boxes=scene.boxes, reach=REACH)
+    return _wholes([outline, *(others[key] for key in near)], [0], image=scene.image)[0]
 
 
-def outlines_of(document: Document, annotations: Mapping[str, Annotation]) -> dict[str, Outline]:
-    """What is visible of every cap: the live annotations, and the predictions nobody has touched."""
-    touched = {annotation.cap.prediction for annotation in annotations.values()}
-    live = {uid: a.cap.visible for uid, a in annotations.items() if not a.deleted}
-    return live | {_key(p.id): p.visible for p in document.predictions if p.id not in touched}
-
-
-def refit(document: Document, annotations: Mapping[str, Annotation], request: Refit) -> Fit:
+def refit(scene: Scene, request: Refit) -> Fit:
     """Answers a refit: the whole outline of a cap as it is being dragged."""
-    cap, around = request.cap, outlines_of(document, annotations)
-    around.pop(request.annotation, None)
-    around.pop(_key(cap.prediction), None)
-    whole = whole_of(cap.visible, cap.mark, image=document.image, around=around)
+    whole = whole_of(request.annotation, request.cap, scene)
     return Fit(
         seq=request.seq,
         annotation=request.annotation,
@@ -81,20 +75,19 @@ def refit(document: Document, annotations: Mapping[str, Annotation], request: Re
     )
 
 
-def derive_edits(project: Project, edits: Sequence[Edit]) -> list[Derived]:
-    """Works out whole outlines and centres for a change set, as the image stands with the whole set in it."""
-    images: dict[int, Image] = {}
-    caps: dict[int, dict[str, Outline]] = {}
+def derive_edits(project: Project, edits: Sequence[Edit], *, known: Scene | None = None) -> list[Derived]:
+    """Works out whole outlines and centres for a change set, as the images stand with the whole set in it.
+
+    ``known`` saves loading the image it shows. Edits that make no sense are left to the journal to refuse.
+    """
+    scenes = {known.image.id: known} if known else {}
     with project.read() as connection:
-        for image_id in {edit.image for edit in edits}:
+        for image_id in {edit.image for edit in edits} - scenes.keys():
             with suppress(StoreError):
-                document = load_document(connection, image_id)
-                images[image_id] = document.image
-                caps[image_id] = outlines_of(document, {a.uid: a for a in document.annotations})
-    for edit in edits:
-        if edit.image in caps:
-            _enter(caps[edit.image], edit, image=images[edit.image])
-    return [_derive(edit, images.get(edit.image), caps.get(edit.image, {})) for edit in edits]
+                scenes[image_id] = scene_of(load_document(connection, image_id))
+    for image_id, scene in scenes.items():
+        scenes[image_id] = _with_edits(scene, [edit for edit in edits if edit.image == image_id])
+    return [_derive(edit, scenes.get(edit.image)) for edit in edits]
 
 
 def fill_in(
@@ -169,21 +162,28 @@ def _stored(whole: Whole) -> derived.Fit:
     )
 
 
-def _derive(edit: Edit, image: Image | None, caps: Mapping[str, Outline]) -> Derived:
-    if edit.cap is None or image is None:
+def _derive(edit: Edit, scene: Scene | None) -> Derived:
+    if edit.cap is None or scene is None:
         return Derived(edit=edit)
-    around = {key: outline for key, outline in caps.items() if key != edit.annotation}
-    fit = _stored(whole_of(edit.cap.visible, edit.cap.mark, image=image, around=around))
+    fit = _stored(whole_of(edit.annotation, edit.cap, scene))
     return Derived(edit=edit, whole=fit.whole, centre=fit.centre, refusal=fit.refusal)
 
 
-def _enter(caps: dict[str, Outline], edit: Edit, *, image: Image) -> None:
-    caps.pop(edit.annotation, None)
-    if edit.cap is not None:
-        caps.pop(_key(edit.cap.prediction), None)
-        with suppress(GeometryError):
-            caps[edit.annotation] = check_outline(edit.cap.visible, width=image.width, height=image.height)
+def _with_edits(scene: Scene, edits: Sequence[Edit]) -> Scene:
+    """The scene once these edits are accepted, as far as their outlines can be used."""
+    annotations = dict(scene.annotations)
+    for edit in edits:
+        annotations.pop(edit.annotation, None)
+        if edit.cap is not None and (outline := _usable(edit.cap.visible, scene.image)) is not None:
+            cap = msgspec.structs.replace(edit.cap, visible=outline)
+            annotations[edit.annotation] = Annotation(
+                uid=edit.annotation, image=edit.image, revision=edit.base, cap=cap
+            )
+    return replace(scene, annotations=annotations)
 
 
-def _key(prediction: int | None) -> str:
-    return f"prediction {prediction}"
+def _usable(visible: Outline, image: Image) -> Outline | None:
+    try:
+        return check_outline(visible, width=image.width, height=image.height)
+    except GeometryError:
+        return None

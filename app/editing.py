@@ -10,6 +10,7 @@ import anyio.to_thread
 
 from app.derive import derive_edits, refit
 from app.gateway.messages import Changed, Outcomes, Refit
+from app.scene import Scene
 from app.session import Session
 from app.workspace import Workspace
 from storage.journal import commit
@@ -20,7 +21,7 @@ log = logging.getLogger(__name__)
 
 async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
     """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
-    outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.user)
+    outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.scene, session.user)
     session.send(Outcomes(outcomes=outcomes))
     accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
     session.take_in(accepted)
@@ -33,12 +34,10 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
             tab.send(Changed(image=image_id, annotations=changed, user=session.user))
             tab.refresh("cap")
     session.refresh("cap", "status")
-    if accepted:
-        workspace.refresh("images")
 
 
-def _store(workspace: Workspace, edits: Sequence[Edit], user: str) -> list[Outcome]:
-    return commit(workspace.project, derive_edits(workspace.project, edits), user=user)
+def _store(workspace: Workspace, edits: Sequence[Edit], known: Scene | None, user: str) -> list[Outcome]:
+    return commit(workspace.project, derive_edits(workspace.project, edits, known=known), user=user)
 
 
 class Refits:
@@ -64,12 +63,9 @@ class Refits:
         try:
             while (request := self._latest) is not None:
                 self._latest = None
-                document = self._session.document
-                if document is None or document.image.id != request.image:
-                    continue
-                annotations = dict(self._session.annotations)
-                fit = await anyio.to_thread.run_sync(refit, document, annotations, request)
-                self._session.send(fit)
+                scene = self._session.scene
+                if scene is not None and scene.image.id == request.image:
+                    self._session.send(await anyio.to_thread.run_sync(refit, scene, request))
         except Exception:
             log.exception("A refit failed.")
         finally:

@@ -11,6 +11,8 @@ Key = TypeVar("Key")
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom; pixels."""
 
+MOST_KEPT = 20_000
+
 
 def box_of(outline: Outline) -> Box | None:
     """The box around an outline; None of an empty one."""
@@ -19,19 +21,39 @@ def box_of(outline: Outline) -> Box | None:
     return (min(xs), min(ys), max(xs), max(ys)) if xs and ys else None
 
 
-def keys_near(outline: Outline, others: Mapping[Key, Outline], *, reach: float = 0.0) -> list[Key]:
+class Boxes:
+    """Remembers the boxes of outlines, which are never changed in place; the same list, the same box."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[Outline, Box | None]] = {}
+
+    def of(self, outline: Outline) -> Box | None:
+        """``box_of``, computed once an outline."""
+        known = self._known.get(id(outline))
+        if known is not None and known[0] is outline:
+            return known[1]
+        if len(self._known) >= MOST_KEPT:
+            self._known.clear()
+        box = box_of(outline)
+        self._known[id(outline)] = (outline, box)
+        return box
+
+
+def keys_near(
+    outline: Outline, others: Mapping[Key, Outline], *, boxes: Boxes, reach: float = 0.0
+) -> list[Key]:
     """Whose box touches that of ``outline`` widened on all sides by ``reach`` times its longer side."""
     box = box_of(outline)
     if box is None:
         return []
-    left, top, right, bottom = box
-    margin = reach * max(right - left, bottom - top)
+    margin = reach * max(box[2] - box[0], box[3] - box[1])
+    left, top, right, bottom = box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin
     return [
         key
         for key, other in others.items()
-        if (near := box_of(other)) is not None
-        and near[0] <= right + margin
-        and near[2] >= left - margin
-        and near[1] <= bottom + margin
-        and near[3] >= top - margin
+        if (near := boxes.of(other)) is not None
+        and near[0] <= right
+        and near[2] >= left
+        and near[1] <= bottom
+        and near[3] >= top
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 import msgspec
@@ -9,50 +10,67 @@ from sqlalchemy import Connection
 
 from app.gateway.messages import Show
 from app.gateway.photos import url_of_photo
+from app.nearby import Boxes
 from app.session import Selection, Session
 from app.workspace import Workspace
 from storage import images
-from storage.documents import load_document
+from storage.documents import load_version
 from storage.errors import StoreError
-from storage.images import Place
-from storage.records import Document, Status
+from storage.images import ImageFilter, Place
+from storage.records import Document, Image, Status
 
 CHANGES_IMAGE = ("status", "images", "cap", "review")
 """The parts of the panel that depend on the image on screen."""
+
+
+@dataclass(frozen=True)
+class _Found:
+    document: Document
+    version: int
+    place: Place
+    near: list[Image]
 
 
 async def open_image(
     workspace: Workspace, session: Session, image_id: int, *, select: str | None = None
 ) -> None:
     """Shows an image in a tab. Raises StoreError where the project has no such image."""
-    wanted = session.filter
+    which, shown = session.filter, None
+    # Until the tab shows the image it hears of no changes to it, so a look back follows.
+    while shown is None or await workspace.read(lambda c: load_version(c, image_id)) != shown.version:
+        shown = await workspace.read(lambda c: _find(workspace, c, image_id, which))
+        _show(session, shown, select=select)
+    session.refresh(*CHANGES_IMAGE)
+    workspace.read_ahead([image.id for image in shown.near[:1]])
 
-    def query(connection: Connection) -> tuple[Document, Place, list[str]]:
-        place = images.place_in_list(connection, wanted, image_id)
-        near = [images.get_image(connection, i) for i in (place.next, place.previous) if i is not None]
-        return load_document(connection, image_id), place, [url_of_photo(image) for image in near]
 
-    document, place, ahead = await workspace.read(query)
-    session.document = document
-    session.annotations = {annotation.uid: annotation for annotation in document.annotations}
-    session.position, session.count = place.position, place.count
+def _find(workspace: Workspace, connection: Connection, image_id: int, which: ImageFilter) -> _Found:
+    place = images.place_in_list(connection, which, image_id)
+    near = [images.get_image(connection, i) for i in (place.next, place.previous) if i is not None]
+    version, document = workspace.documents.load(connection, image_id)
+    return _Found(document, version, place, near)
+
+
+def _show(session: Session, found: _Found, *, select: str | None) -> None:
+    session.document = found.document
+    session.annotations = {annotation.uid: annotation for annotation in found.document.annotations}
+    session.boxes = Boxes()
+    session.position, session.count = found.place.position, found.place.count
     session.selection = Selection(annotation=select)
     session.send(
         Show(
-            document=document,
-            photo=url_of_photo(document.image),
+            document=found.document,
+            photo=url_of_photo(found.document.image),
             select=select,
             position=session.position,
             count=session.count,
-            ahead=ahead,
+            ahead=[url_of_photo(image) for image in found.near],
         )
     )
-    session.refresh(*CHANGES_IMAGE)
 
 
 async def reopen(workspace: Workspace, session: Session, image_id: int | None) -> None:
     """Shows the image a tab had on screen before its connection broke, else the first of the list."""
-
     if image_id is not None:
         try:
             await open_image(workspace, session, image_id)

@@ -7,21 +7,22 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import anyio.to_thread
 
 from app.jobs import Progress, Result
 from app.nearby import keys_near
+from app.scene import Scene, covered_by
 from model import evaluate
 from model.documents import CapRecord
-from model.geometry import diameter_of_shape, polygon_of_shape
+from model.geometry import diameter_of_shape
 from model.raster import rle_of_outline
 from storage.comparisons import Comparison, stale_images, store_comparison
 from storage.documents import load_annotations, load_document, load_predictions, load_version
 from storage.predictions import latest_run
 from storage.project import Project
-from storage.records import Annotation, Image, Outline, Prediction
+from storage.records import Annotation, Image, Prediction
 
 log = logging.getLogger(__name__)
 
@@ -38,26 +39,17 @@ def compare(
     return evaluate.compare(truths, guesses, width=image.width, height=image.height)
 
 
-def compare_cap(
-    image: Image, annotations: Mapping[str, Annotation], predictions: Iterable[Prediction], uid: str
-) -> evaluate.Pair | None:
+def compare_cap(scene: Scene, uid: str) -> evaluate.Pair | None:
     """The prediction that belongs to one cap, looked for among what lies near it; None where there is none.
 
     The pair's indices mean nothing to the caller.
     """
-    outlines = {key: outline_of(a) for key, a in annotations.items() if not a.deleted}
-    guesses = {p.id: p for p in predictions}
-    near = keys_near(outlines[uid], outlines)
-    around = keys_near(outlines[uid], {key: p.visible for key, p in guesses.items()})
-    found = compare(image, [annotations[key] for key in near], [guesses[key] for key in around])
+    covered = {key: covered_by(a) for key, a in scene.annotations.items() if not a.deleted}
+    guesses = {p.id: p for p in scene.predictions}
+    near = keys_near(covered[uid], covered, boxes=scene.boxes)
+    around = keys_near(covered[uid], {key: p.visible for key, p in guesses.items()}, boxes=scene.boxes)
+    found = compare(scene.image, [scene.annotations[key] for key in near], [guesses[key] for key in around])
     return next((pair for pair in found.pairs if near[pair.truth] == uid), None)
-
-
-def outline_of(annotation: Annotation) -> Outline:
-    """What a cap covers: what is visible of it, else all of a mark placed without an outline."""
-    if annotation.cap.visible or annotation.whole is None:
-        return annotation.cap.visible
-    return [polygon_of_shape(annotation.whole)]
 
 
 def compare_image(project: Project, image_id: int) -> Comparison | None:
@@ -163,7 +155,7 @@ def _truth(annotation: Annotation, image: Image) -> CapRecord:
     marked = annotation.cap.mark is not None
     return CapRecord(
         id=annotation.uid,
-        rle=rle_of_outline(outline_of(annotation), height=image.height, width=image.width),
+        rle=rle_of_outline(covered_by(annotation), height=image.height, width=image.width),
         centre=annotation.centre if marked else None,
         diameter=diameter_of_shape(annotation.whole) if annotation.whole else None,
         ignored=annotation.cap.ignored,

@@ -16,7 +16,9 @@ from typing import Literal
 import viser
 
 from app.gateway.messages import FromServer, Layers, Notice
+from app.nearby import Boxes
 from app.panels.markup import element
+from app.scene import Scene
 from storage.images import ImageFilter
 from storage.records import Annotation, Document, Image
 
@@ -64,6 +66,7 @@ class Session:
     document: Document | None = None
     """The image on screen as it was opened; ``annotations`` is kept up to date."""
     annotations: dict[str, Annotation] = field(default_factory=dict)
+    boxes: Boxes = field(default_factory=Boxes)
     filter: ImageFilter = field(default_factory=ImageFilter)
     """Which images the list shows, and so what comes next."""
     position: int = 0
@@ -77,6 +80,13 @@ class Session:
     def image(self) -> Image | None:
         """The image on screen."""
         return self.document.image if self.document else None
+
+    @property
+    def scene(self) -> Scene | None:
+        """The image on screen with its caps as they are now."""
+        if self.document is None:
+            return None
+        return Scene(self.document.image, dict(self.annotations), self.document.predictions, self.boxes)
 
     def shows(self, image_id: int) -> bool:
         """Whether this image is on screen."""

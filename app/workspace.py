@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import asyncio
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeVar
@@ -10,10 +12,12 @@ from typing import TypeVar
 import anyio.to_thread
 from sqlalchemy import Connection
 
+from app.documents import Documents
 from app.jobs import Job, Jobs, Progress, Result
 from app.review import Reviewer
 from app.session import Session, Tabs
 from app.settings import Settings
+from model.errors import FairyringError
 from storage.project import Project
 
 Found = TypeVar("Found")
@@ -27,6 +31,8 @@ class Workspace:
     settings: Settings
     tabs: Tabs = field(default_factory=Tabs)
     jobs: Jobs = field(default_factory=Jobs)
+    documents: Documents = field(default_factory=Documents)
+    _ahead: set[asyncio.Task[None]] = field(default_factory=set)
 
     @cached_property
     def reviewer(self) -> Reviewer:
@@ -48,10 +54,23 @@ class Workspace:
         self.jobs.start(title, work, user=session.user, finished=finished)
         self.refresh("jobs")
 
+    def read_ahead(self, image_ids: Sequence[int]) -> None:
+        """Loads images that somebody is likely to open next, in the background."""
+
+        async def load() -> None:
+            for image_id in image_ids:
+                with suppress(FairyringError):
+                    await self.read(lambda connection, i=image_id: self.documents.load(connection, i))
+
+        task = asyncio.create_task(load())
+        self._ahead.add(task)
+        task.add_done_callback(self._ahead.discard)
+
     async def close(self) -> None:
         """Stops what runs in the background."""
         await self.jobs.close()
         await self.reviewer.close()
+        await asyncio.gather(*self._ahead, return_exceptions=True)
 
     async def read(self, query: Callable[[Connection], Found]) -> Found:
         """Runs a query in a thread, so that the event loop never waits for the disk."""

@@ -13,7 +13,7 @@ Real: TypeEngine[float] = Double().with_variant(REAL(), "sqlite")
 
 
 class Json(TypeDecorator[Any]):
-    """JSON text of one Python type. Bytes that msgspec has encoded already are stored as they are."""
+    """JSON text of one Python type."""
 
     impl = Text
     cache_ok = True
@@ -25,10 +25,7 @@ class Json(TypeDecorator[Any]):
 
     @override
     def process_bind_param(self, value: Any, dialect: Dialect) -> str | None:
-        if value is None:
-            return None
-        encoded = value if isinstance(value, bytes) else msgspec.json.encode(value)
-        return encoded.decode()
+        return None if value is None else msgspec.json.encode(value).decode()
 
     @override
     def process_result_value(self, value: str | None, dialect: Dialect) -> Any:

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct, structs
-from sqlalchemy import Connection, Table, insert, select, update
+from sqlalchemy import Connection, insert, select, update
 
 from model.geometry import polygon_of_shape
 from storage import schema
+from storage.bulk import insert_many
 from storage.clock import now
 from storage.counting import recount
 from storage.fitting import content_number
@@ -17,7 +18,8 @@ from storage.formats.found import FoundCap
 from storage.images import sort_name
 from storage.placing import Photo
 from storage.predictions import saw
-from storage.rows import encode, ensure_category, load_categories, values_of_cap, values_of_fit
+from storage.records import Outline
+from storage.rows import ensure_category, load_categories, values_of_cap, values_of_fit
 
 CHUNK = 500
 """Numbers asked for in one statement."""
@@ -81,19 +83,18 @@ def enter_annotations(
         if uid in owners:
             continue
         owners[uid] = photo.id
-        visible, mark = encode(cap.cap.visible), cap.cap.mark and encode(cap.cap.mark)
         annotations.append(
             values_of_cap(cap.cap, categories=ids)
             | values_of_fit(cap.whole, cap.centre, None)
-            | {"visible": visible, "mark": mark, "uid": uid, "image": photo.id, "revision": 1}
-            | {"deleted": False, "extra": cap.extra, "edited_by": user, "edited_at": time}
+            | {"uid": uid, "image": photo.id, "revision": 1, "deleted": False, "extra": cap.extra}
+            | {"edited_by": user, "edited_at": time}
         )
         edits.append(
             {"id": f"import-{uid}", "digest": "import", "annotation": uid, "image": photo.id, "base": 0}
             | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
         )
-    _insert(connection, schema.annotation, annotations)
-    _insert(connection, schema.edit, edits)
+    insert_many(connection, schema.annotation, annotations)
+    insert_many(connection, schema.edit, edits)
     recount(connection, {row["image"] for row in annotations})
     total = sum(len(item.caps) for item in labelled)
     return Entered(new=len(annotations), known=total - len(annotations))
@@ -123,7 +124,7 @@ def enter_predictions(
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
         )
-    _insert(connection, table, rows)
+    insert_many(connection, table, rows)
     saw(connection, run_id=run_id, image_ids=[item.photo.id for item in labelled if item.photo.id])
     total = sum(len(item.caps) for item in labelled)
     return Entered(new=len(rows), known=total - len(rows))
@@ -157,7 +158,7 @@ def _owners(connection: Connection, uids: Sequence[str]) -> dict[str, int | None
     owners: dict[str, int | None] = {}
     for start in range(0, len(uids), CHUNK):
         asked = select(table.c.uid, table.c.image).where(table.c.uid.in_(uids[start : start + CHUNK]))
-        owners.update(connection.execute(asked).tuples().all())
+        owners.update({row.uid: row.image for row in connection.execute(asked)})
     return owners
 
 
@@ -167,13 +168,8 @@ def _own_number(cap: FoundCap, photo: Photo, owners: Mapping[str, int | None]) -
     return uid if owners.get(uid, photo.id) == photo.id else content_number(cap.cap, photo=photo)
 
 
-def _seen(cap: FoundCap) -> Any:
+def _seen(cap: FoundCap) -> Outline:
     """A prediction has a visible outline: where a file gives only a shape, that of the shape."""
     if cap.cap.visible or cap.whole is None:
-        return encode(cap.cap.visible)
-    return encode([polygon_of_shape(cap.whole)])
-
-
-def _insert(connection: Connection, table: Table, rows: list[dict[str, Any]]) -> None:
-    if rows:
-        connection.execute(insert(table), rows)
+        return cap.cap.visible
+    return [polygon_of_shape(cap.whole)]

@@ -11,7 +11,7 @@ import msgspec
 from msgspec import structs
 
 from model.errors import FairyringError
-from model.geometry import Circle, Ellipse, GeometryError, area_of_outline
+from model.geometry import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
 from model.raster import check_mark, check_outline
 from storage.checking import check_cap
 from storage.errors import StoreError
@@ -43,7 +43,10 @@ def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     if found.rle_size not in (None, (photo.height, photo.width)):
         height, width = found.rle_size or (0, 0)
         raise StoreError(f"The RLE is {width} × {height}, the photo {photo.width} × {photo.height} pixels.")
-    cap, remarks = _checked(found.cap, photo)
+    cap = found.cap
+    if cap.visible == [] and cap.mark is None and (shape := _checked_shape(found.whole, photo)):
+        cap = structs.replace(cap, visible=[polygon_of_shape(shape)])
+    cap, remarks = _checked(cap, photo)
     if found.marked and cap.mark is None and found.centre is not None:
         cap = structs.replace(cap, mark=_mark_around(found.centre, cap.visible))
     mark = cap.mark

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import msgspec
 from sqlalchemy import Connection, Row, Select, func, insert, select
 
 from storage.errors import StoreError
@@ -141,11 +140,6 @@ def latest_run_row(connection: Connection) -> AnyRow | None:
     """The run made last."""
     latest = select(func.max(run.c.id)).scalar_subquery()
     return connection.execute(select(run).where(run.c.id == latest)).first()
-
-
-def encode(value: Any) -> bytes:
-    """JSON as the columns hold it."""
-    return msgspec.json.encode(value)
 
 
 def _centre_of(row: AnyRow) -> Point | None:

@@ -7,6 +7,7 @@ import logging
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
+import anyio.to_thread
 import msgspec
 from msgspec import Struct
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -23,6 +24,7 @@ from app.gateway.messages import (
     Saving,
     Select,
     SetStatus,
+    Show,
     Step,
     Toggle,
     Welcome,
@@ -107,7 +109,14 @@ async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> Non
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:
             message = await outbox.get()
-            await socket.send_text(_outgoing.encode(message).decode())
+            await socket.send_text(await _encode(message))
+
+
+async def _encode(message: FromServer) -> str:
+    """As JSON; in a thread where the message may be large."""
+    if isinstance(message, Show):
+        return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
+    return _outgoing.encode(message).decode()
 
 
 async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:

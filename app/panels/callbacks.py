@@ -15,6 +15,8 @@ from model.errors import FairyringError
 log = logging.getLogger(__name__)
 
 UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
+SETTLES_S = 0.03
+"""What happens in quick succession is drawn once, and after the editor has had its answer."""
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
 Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
@@ -60,6 +62,7 @@ class Redrawing:
 
     async def _draw(self) -> None:
         try:
+            await asyncio.sleep(SETTLES_S)
             while self._wanted:
                 part = next(name for name in self._parts if name in self._wanted)
                 self._wanted.discard(part)

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection
 
-from app.derive import Whole, outlines_of, whole_of
+from app.derive import Whole, whole_of
 from app.panels.callbacks import Redraw
 from app.panels.icons import icon
 from app.panels.markup import EMPTY, Content, Markup, element
 from app.panels.status import run_badge
 from app.review import compare_cap
+from app.scene import Scene
 from app.session import Session
 from app.workspace import Workspace
 from model.evaluate import Pair
 from model.geometry import Circle, Polygon
-from storage.documents import load_prediction, load_predictions, load_run
+from storage.documents import load_prediction, load_run
 from storage.journal import Entry, history
 from storage.records import Annotation, Mark, Prediction, Run, Shape
 
@@ -53,36 +54,29 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 async def _inspect(workspace: Workspace, session: Session) -> Markup:
-    document, selection = session.document, session.selection
-    if document is None:
+    scene, selection = session.scene, session.selection
+    if scene is None or session.document is None:
         return EMPTY
-    annotation = session.annotations.get(selection.annotation or "")
+    annotation = scene.annotations.get(selection.annotation or "")
     if annotation is not None and not annotation.deleted:
-        return annotation_facts(annotation, await _background(workspace, session, annotation))
-    for prediction in document.predictions:
+        return annotation_facts(annotation, await _background(workspace, scene, annotation))
+    for prediction in scene.predictions:
         if prediction.id == selection.prediction:
-            return prediction_facts(prediction, document.run)
+            return prediction_facts(prediction, session.document.run)
     return summary(session)
 
 
-async def _background(workspace: Workspace, session: Session, annotation: Annotation) -> Background:
-    cap, document = annotation.cap, session.document
-    assert document is not None
-
-    annotations = dict(session.annotations)
+async def _background(workspace: Workspace, scene: Scene, annotation: Annotation) -> Background:
+    started_from = annotation.cap.prediction
 
     def gather(connection: Connection) -> Background:
-        prediction = load_prediction(connection, cap.prediction) if cap.prediction is not None else None
-        run = load_run(connection, prediction.run) if prediction else None
-        predictions = load_predictions(connection, document.image.id)
-        around = outlines_of(document, annotations)
-        around.pop(annotation.uid, None)
+        prediction = load_prediction(connection, started_from) if started_from is not None else None
         return Background(
             entries=history(connection, annotation.uid),
             prediction=prediction,
-            run=run,
-            whole=whole_of(cap.visible, cap.mark, image=document.image, around=around),
-            pair=compare_cap(document.image, annotations, predictions, annotation.uid),
+            run=load_run(connection, prediction.run) if prediction else None,
+            whole=whole_of(annotation.uid, annotation.cap, scene),
+            pair=compare_cap(scene, annotation.uid),
         )
 
     return await workspace.read(gather)
@@ -142,11 +136,13 @@ def summary(session: Session) -> Markup:
     """What the image on screen holds, while nothing is selected."""
     assert session.document is not None
     live = [a for a in session.annotations.values() if not a.deleted]
+    real = [a for a in live if not a.cap.ignored]
     touched = {a.cap.prediction for a in session.annotations.values()}
     waiting = sum(p.id not in touched for p in session.document.predictions)
     facts: Facts = [
-        ("Caps", f"{len(live)}, {sum(a.cap.mark is not None for a in live)} marked"),
-        ("Predictions", f"{waiting} not looked at" if waiting else "all looked at"),
+        ("Caps", f"{len(real)}, {sum(a.cap.mark is not None for a in real)} marked"),
+        ("Ignored", len(live) - len(real)),
+        ("Predictions", f"{waiting} open" if waiting else "none open"),
     ]
     return _inspector(element("span", "Nothing selected", class_="fr-quiet"), facts=facts)
 

@@ -12,7 +12,7 @@ from app.session import Session
 from app.workspace import Workspace
 from storage.images import ImageFilter, ImagePage, ImageRow, list_images, place_in_list
 
-PAGE = 12
+PAGE = 10
 ANY = "any"
 STATUSES = {ANY: None, "not begun": "new", "annotated": "annotated", "approved": "approved"}
 LIGHTS = {ANY: None, "top": "top", "side": "side", "dark": "dark"}

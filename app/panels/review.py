@@ -100,9 +100,9 @@ def review_page(review: Review, number: int, current: int | None) -> Markup:
         element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
         _totals(review.rows),
         _bars(review.rows[:MOST_BARS], current),
-        _scatter(review.rows),
         element("table", _head(), element("tbody", *(_row(row, current) for row in rows)), class_="fr-list"),
         element("div", f"{first + 1}–{first + len(rows)} of {review.total} images", class_="fr-quiet"),
+        _scatter(review.rows),
         class_="fr-review",
     )
 

@@ -102,7 +102,9 @@ export function measure(cap) {
 
 /** @type {(cap: Cap) => Bounds | null} */
 function boundsOfCap(cap) {
-  const all = ringsOf(cap).filter((ring) => ring.length >= 2).map(boundsOfRing);
+  const all = ringsOf(cap)
+    .filter((ring) => ring.length >= 2)
+    .map(boundsOfRing);
   const placed = placedWhole(cap);
   if (placed) all.push(boundsOfWhole(placed));
   return all.length ? all.reduce(joined) : null;

@@ -49,7 +49,8 @@ export const COMMANDS = {
   convert: ({ desk }) => desk.changeSelected(converted),
   next_cap: ({ desk }) => cycle(desk, 1),
   previous_cap: ({ desk }) => cycle(desk, -1),
-  select_all: ({ desk }) => desk.select(desk.items.filter((shape) => !isPrediction(shape)).map(({ uid }) => uid)),
+  select_all: ({ desk }) =>
+    desk.select(desk.items.filter((shape) => !isPrediction(shape)).map(({ uid }) => uid)),
   next_image: ({ desk, send }) => (desk.settle(), send({ type: "step", by: 1 })),
   previous_image: ({ desk, send }) => (desk.settle(), send({ type: "step", by: -1 })),
   done: finishImage,
@@ -78,13 +79,18 @@ for (const layer of ["photo", "outline", "fill", "whole", "centre", "label", "pr
 function travel({ desk, sync, say }, way) {
   desk.settle();
   const changes = way === "undo" ? sync.undo() : sync.redo();
-  if (!changes) return say(way === "undo" ? "There is nothing to undo on this image." : "There is nothing to redo.");
+  if (!changes)
+    return say(way === "undo" ? "There is nothing to undo on this image." : "There is nothing to redo.");
   const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
   const known = uids.filter((uid) => desk.item(uid));
   desk.select(known.length <= 20 ? known : [], { reveal: true });
 }
 
-/** The prediction that is open again when its annotation is gone. @type {(before: Shape | null) => string[]} */
+/**
+ * The prediction that is open again when its annotation is gone.
+ *
+ * @type {(before: Shape | null) => string[]}
+ */
 function openAgain(before) {
   return before && before.cap.prediction !== null ? [`prediction:${before.cap.prediction}`] : [];
 }
@@ -107,14 +113,22 @@ function reorder(desk, by) {
   desk.changeSelected((cap) => ({ ...cap, order: (cap.order ?? 0) + by }));
 }
 
-/** The largest part, as that is where the rim shows. @type {(cap: Cap) => import("./messages.js").Polygon | null} */
+/**
+ * The largest part, as that is where the rim shows.
+ *
+ * @type {(cap: Cap) => import("./messages.js").Polygon | null}
+ */
 function outlineAsMark({ visible }) {
   if (visible.length === 0) return null;
   const points = visible.reduce((a, b) => (areaOfRing(b) > areaOfRing(a) ? b : a));
   return { kind: "polygon", points };
 }
 
-/** A circle mark becomes a polygon mark of the same centre, anything else a circle mark. @type {(cap: Cap, shape: Shape) => Cap | null} */
+/**
+ * A circle mark becomes a polygon mark of the same centre, anything else a circle mark.
+ *
+ * @type {(cap: Cap, shape: Shape) => Cap | null}
+ */
 function converted(cap, { whole }) {
   if (cap.mark?.kind === "circle") {
     return { ...cap, mark: { kind: "polygon", points: polygonOfCircle(cap.mark) } };
@@ -124,7 +138,9 @@ function converted(cap, { whole }) {
 
 /** To the next cap in reading order. @type {(desk: Desk, by: number) => void} */
 function cycle(desk, by) {
-  const order = desk.pickable.map((shape) => ({ uid: shape.uid, key: readingKey(shape) })).sort((a, b) => a.key - b.key);
+  const order = desk.pickable
+    .map((shape) => ({ uid: shape.uid, key: readingKey(shape) }))
+    .sort((a, b) => a.key - b.key);
   if (order.length === 0) return;
   const here = order.findIndex(({ uid }) => desk.selected.has(uid));
   const start = here < 0 && by < 0 ? 0 : here;

@@ -23,7 +23,10 @@ import { toScreen } from "./view.js";
 export class ConflictCard {
   /** @type {Clash | null} */
   #clash = null;
-  #card = element("div", { class: "fairyring-conflict", attributes: { role: "alertdialog", "aria-label": "Conflict" } });
+  #card = element("div", {
+    class: "fairyring-conflict",
+    attributes: { role: "alertdialog", "aria-label": "Conflict" },
+  });
   #wishes;
 
   /**
@@ -63,11 +66,17 @@ export class ConflictCard {
       "p",
       { class: "fairyring-conflict-legend" },
       element("span", { class: "is-mine", text: "yours" }),
-      element("span", { class: "is-theirs", text: clash.theirs.deleted ? `${clash.user}: deleted` : clash.user }),
+      element("span", {
+        class: "is-theirs",
+        text: clash.theirs.deleted ? `${clash.user}: deleted` : clash.user,
+      }),
     );
     const { resolve, show } = this.#wishes;
     const buttons = here
-      ? [button("Keep mine", () => resolve(clash, "mine")), button("Take theirs", () => resolve(clash, "theirs"))]
+      ? [
+          button("Keep mine", () => resolve(clash, "mine")),
+          button("Take theirs", () => resolve(clash, "theirs")),
+        ]
       : [button("Show it", () => show(clash))];
     return [element("p", { text }), ...(here ? [legend] : []), element("div", {}, ...buttons)];
   }

@@ -5,11 +5,9 @@
  * @module
  */
 
-import { boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./caps.js";
-import { movedHandle } from "./handles.js";
+import { boundsOf, changed, movedShape, nudgedHandle, withCap } from "./shapes.js";
 import { signal } from "./signal.js";
 import { Store, isPrediction, shapeOfPrediction } from "./store.js";
-import { newId } from "./tabs.js";
 import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view.js";
 
 /** @typedef {import("./handles.js").Handle} Handle */
@@ -18,13 +16,20 @@ import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view
 /** @typedef {import("./messages.js").Image} Image */
 /** @typedef {import("./store.js").Change} Change */
 /** @typedef {import("./store.js").Shape} Shape */
-/** @typedef {import("./view.js").Bounds} Bounds */
 /** @typedef {import("./view.js").View} View */
 
 const NUDGE_SETTLES_MS = 400;
 
 /** @type {Record<string, boolean>} */
-export const LAYERS = { photo: true, outline: true, fill: true, whole: true, centre: true, label: false, prediction: true };
+export const LAYERS = {
+  photo: true,
+  outline: true,
+  fill: true,
+  whole: true,
+  centre: true,
+  label: false,
+  prediction: true,
+};
 
 export class Desk {
   store = new Store();
@@ -57,6 +62,8 @@ export class Desk {
     selection: signal(),
     /** @type {import("./signal.js").Signal<[Shape]>} */
     draft: signal(),
+    /** @type {import("./signal.js").Signal<[]>} */
+    nudge: signal(),
   };
 
   /** @type {Shape[] | null} */
@@ -167,22 +174,28 @@ export class Desk {
   propose(shapes) {
     const fresh = shapes.filter(({ uid }) => !this.drafts.has(uid));
     for (const shape of shapes) this.drafts.set(shape.uid, shape);
-    if (fresh.some(({ uid }) => this.selected.size !== 1 || !this.selected.has(uid))) this.signals.shapes.emit(fresh);
+    if (fresh.some(({ uid }) => this.selected.size !== 1 || !this.selected.has(uid)))
+      this.signals.shapes.emit(fresh);
     if (shapes.length === 1) this.signals.draft.emit(shapes[0]);
     this.signals.overlay.emit();
   }
 
   /** Forgets what was proposed. */
   withdraw() {
-    clearTimeout(this.#nudging);
+    this.#calm();
     const shapes = [...this.drafts.values()];
     this.drafts.clear();
     if (shapes.length) this.signals.shapes.emit(shapes);
   }
 
+  #calm() {
+    clearTimeout(this.#nudging);
+    this.#nudging = 0;
+  }
+
   /** Commits what was proposed, as one step. */
   settle() {
-    clearTimeout(this.#nudging);
+    this.#calm();
     if (this.drafts.size === 0) return;
     const changes = [...this.drafts.values()].flatMap((draft) => {
       const before = this.item(draft.uid);
@@ -200,7 +213,9 @@ export class Desk {
    */
   commit(changes) {
     this.#commit(changes);
-    const heirs = changes.filter(({ before, after }) => !before && after.cap.prediction !== null && !after.deleted);
+    const heirs = changes.filter(
+      ({ before, after }) => !before && after.cap.prediction !== null && !after.deleted,
+    );
     const heirOf = new Map(heirs.map(({ after }) => [`prediction:${after.cap.prediction}`, after.uid]));
     const active = this.active;
     if ([...this.selected].some((uid) => heirOf.has(uid))) {
@@ -252,6 +267,12 @@ export class Desk {
     this.propose(moved);
     clearTimeout(this.#nudging);
     this.#nudging = window.setTimeout(() => this.settle(), NUDGE_SETTLES_MS);
+    this.signals.nudge.emit();
+  }
+
+  /** Caps nudged and not committed yet: no more saved than an edit on its way. */
+  get unsettled() {
+    return this.#nudging ? this.drafts.size : 0;
   }
 
   /** @type {(view: View) => void} */
@@ -290,50 +311,8 @@ export class Desk {
       y1: Math.max(...all.map(({ y1 }) => y1)),
     };
     const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    this.setView(close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size));
+    this.setView(
+      close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
+    );
   }
-}
-
-/** @type {(cap: Cap, handle: Handle, dx: number, dy: number) => Cap} */
-function nudgedHandle(cap, handle, dx, dy) {
-  const mark = placedWhole(cap);
-  const from = /** @type {import("./messages.js").Point} */ (mark ? [boundsOfWhole(mark).x1, mark.cy] : [0, 0]);
-  return movedHandle(cap, handle, { dx: handle.kind === "rim" && dx === 0 ? -dy : dx, dy: handle.kind === "rim" ? 0 : dy, from, pull: 0 });
-}
-
-/** @type {(shape: Shape, dx: number, dy: number) => Shape} */
-export function movedShape(shape, dx, dy) {
-  const cap = movedCap(shape.cap, dx, dy);
-  const { centre } = shape;
-  return { ...shape, cap, whole: movedWhole(shape.whole, dx, dy), centre: centre && [centre[0] + dx, centre[1] + dy] };
-}
-
-/**
- * The same shape with another cap; a circle a person placed is its own whole outline.
- *
- * @param {Shape} shape
- * @param {Cap} cap
- * @returns {Shape}
- */
-export function withCap(shape, cap) {
-  const placed = placedWhole(cap);
-  return placed ? { ...shape, cap, whole: placed, centre: [placed.cx, placed.cy] } : { ...shape, cap };
-}
-
-/**
- * The change from an item to what it became. A prediction is never changed: an annotation that started
- * from it takes its place.
- *
- * @param {Shape} before
- * @param {Shape} after
- * @returns {Change}
- */
-export function changed(before, after) {
-  if (!isPrediction(before)) return { before, after };
-  return { before: null, after: { ...after, uid: newId(), revision: 0, score: null } };
-}
-
-/** @type {(shape: Shape) => Bounds | null} */
-function boundsOf({ cap, whole }) {
-  return measure(cap).bounds ?? (whole && boundsOfWhole(whole));
 }

@@ -84,7 +84,10 @@ export class Editor {
     });
     this.#refits = new Refits(send);
     this.#photos = new Photos(() => this.#frame.redrawPhoto());
-    this.#frame = new Frame(host, this.#desk, this.#photos, () => [this.#tool.sketch ?? (() => null), this.#card.sketch]);
+    this.#frame = new Frame(host, this.#desk, this.#photos, () => [
+      this.#tool.sketch ?? (() => null),
+      this.#card.sketch,
+    ]);
     this.#say = noticesIn(host);
     this.#status = statusIn(host);
     this.#card = new ConflictCard(host, {
@@ -96,15 +99,24 @@ export class Editor {
     this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#tool);
     this.#pressed = pressedButtons(() => this.#tool.name);
     const run = this.#makeRunner();
-    listenToKeys({ run, desk: this.#desk, pointer: this.#pointer, blame: (at) => this.#frame.blame(at, "key") });
-    listenToPanel({ run, use: (name) => this.#use(name), open: (image, select) => this.#open(image, select) });
+    listenToKeys({
+      run,
+      desk: this.#desk,
+      pointer: this.#pointer,
+      blame: (at) => this.#frame.blame(at, "key"),
+    });
+    listenToPanel({
+      run,
+      use: (name) => this.#use(name),
+      open: (image, select) => this.#open(image, select),
+    });
     this.run = run;
     this.#listen();
     this.#progress();
     expose(host, {
       desk: this.#desk,
       frame: this.#frame,
-      waiting: () => this.#sync.waiting,
+      waiting: () => this.#unsaved,
       connection: () => this.#transport.state,
       tool: () => this.#tool.name,
     });
@@ -147,6 +159,7 @@ export class Editor {
   #listen() {
     const { signals } = this.#desk;
     signals.selection.listen(() => this.#tellSelection());
+    signals.nudge.listen(() => this.#progress());
     signals.draft.listen(({ uid, cap }) => {
       const image = this.#desk.image?.id;
       if (image !== undefined && !placedWhole(cap)) this.#refits.ask({ image, annotation: uid, cap });
@@ -230,14 +243,24 @@ export class Editor {
     this.#progress();
   }
 
-  #progress() {
-    const { waiting, kept, clashes } = this.#sync;
-    this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
-    this.#card.update(clashes, this.#desk.image?.id ?? 0);
-    if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting })) this.#waiting = waiting;
+  get #unsaved() {
+    return this.#sync.waiting + this.#desk.unsettled;
   }
 
-  /** Opening the outbox takes a moment, and no document may overtake it. @type {(message: FromServer) => void} */
+  #progress() {
+    const { kept, clashes } = this.#sync;
+    const waiting = this.#unsaved;
+    this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
+    this.#card.update(clashes, this.#desk.image?.id ?? 0);
+    if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))
+      this.#waiting = waiting;
+  }
+
+  /**
+   * Opening the outbox takes a moment, and no document may overtake it.
+   *
+   * @type {(message: FromServer) => void}
+   */
   #receiveInOrder(message) {
     if (message.type === "welcome") this.#ready = this.#welcome(message.project);
     else if (this.#ready) void this.#ready.then(() => this.#receive(message));

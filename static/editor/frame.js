@@ -43,7 +43,9 @@ export class Frame {
     this.#desk = desk;
     this.#sketches = sketches;
     const studio = new Studio();
-    this.#photo = new Surface(host, { paint: (context, view, region) => photos.paint(context, view, region) });
+    this.#photo = new Surface(host, {
+      paint: (context, view, region) => photos.paint(context, view, region),
+    });
     this.#caps = new Surface(host, {
       paint: (context, view, region) => paint(context, view, region, this.#picture()),
       order: (frame) => studio.order(frame, { ...this.#picture(), shapes: desk.items, lifted: desk.lifted }),

@@ -40,7 +40,8 @@ export function nearestHandle(cap, point, reach) {
   const distance = ([x, y] = /** @type {Point} */ ([0, 0])) => Math.hypot(x - point[0], y - point[1]);
   /** @type {[number, Handle][]} */
   const candidates = [[distance([placed.cx, placed.cy]), { kind: "centre" }]];
-  if (vertices.length) candidates.push([nearestVertexDistance(cap, point, vertices[0]), { kind: "vertex", vertices }]);
+  if (vertices.length)
+    candidates.push([nearestVertexDistance(cap, point, vertices[0]), { kind: "vertex", vertices }]);
   if (placed.kind === "circle") {
     const rim = cap.visible.length
       ? Math.min(...rimPoints(placed).map(distance))

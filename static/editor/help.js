@@ -12,7 +12,12 @@ export function keyList() {
     "dialog",
     { class: "fairyring-help", attributes: { "aria-label": "Keys" } },
     element("header", {}, element("h2", { text: "Keys" }), close),
-    element("div", { class: "fairyring-help-columns" }, ...KEYS.map(([title, bindings]) => group(title, rowsOf(bindings))), group("Pointer", GESTURES)),
+    element(
+      "div",
+      { class: "fairyring-help-columns" },
+      ...KEYS.map(([title, bindings]) => group(title, rowsOf(bindings))),
+      group("Pointer", GESTURES),
+    ),
   );
   close.addEventListener("click", () => dialog.close());
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
@@ -21,7 +26,11 @@ export function keyList() {
   return () => (dialog.open ? dialog.close() : dialog.showModal());
 }
 
-/** Keys without words share the words of those that follow. @type {(bindings: import("./keys.js").Binding[]) => [string, string][]} */
+/**
+ * Keys without words share the words of those that follow.
+ *
+ * @type {(bindings: import("./keys.js").Binding[]) => [string, string][]}
+ */
 function rowsOf(bindings) {
   /** @type {[string, string][]} */
   const rows = [];
@@ -37,7 +46,11 @@ function rowsOf(bindings) {
 
 /** @type {(key: string) => string} */
 function readable(key) {
-  const arrows = key.replace("ArrowLeft", "←").replace("ArrowRight", "→").replace("ArrowUp", "↑").replace("ArrowDown", "↓");
+  const arrows = key
+    .replace("ArrowLeft", "←")
+    .replace("ArrowRight", "→")
+    .replace("ArrowUp", "↑")
+    .replace("ArrowDown", "↓");
   return arrows.length === 1 ? arrows.toUpperCase() : arrows.replace("Escape", "Esc");
 }
 

@@ -48,7 +48,8 @@ export function pick(shapes, point, reach) {
 function distanceTo({ cap }, point, reach) {
   const { bounds } = measure(cap);
   const [x, y] = point;
-  if (!bounds || !overlap(bounds, { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach })) return Infinity;
+  if (!bounds || !overlap(bounds, { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach }))
+    return Infinity;
   const placed = placedWhole(cap);
   let best = placed ? distanceToRim(placed, point) : Infinity;
   if (ringsOf(cap).length) {
@@ -58,7 +59,11 @@ function distanceTo({ cap }, point, reach) {
   return best;
 }
 
-/** Exact for circles, close for the mild ellipses of caps. @type {(whole: import("./messages.js").Whole, point: Point) => number} */
+/**
+ * Exact for circles, close for the mild ellipses of caps.
+ *
+ * @type {(whole: import("./messages.js").Whole, point: Point) => number}
+ */
 function distanceToRim(whole, [x, y]) {
   const { a, b, angle } = axesOf(whole);
   const dx = x - whole.cx;
@@ -81,6 +86,8 @@ function distanceToRim(whole, [x, y]) {
 export function within(shapes, rect) {
   return shapes.filter(({ cap }) => {
     const { bounds } = measure(cap);
-    return bounds && bounds.x0 >= rect.x0 && bounds.y0 >= rect.y0 && bounds.x1 <= rect.x1 && bounds.y1 <= rect.y1;
+    return (
+      bounds && bounds.x0 >= rect.x0 && bounds.y0 >= rect.y0 && bounds.x1 <= rect.x1 && bounds.y1 <= rect.y1
+    );
   });
 }

@@ -25,7 +25,10 @@ export function listenToKeys({ run, desk, pointer, blame }) {
     desk.signals.overlay.emit();
     return true;
   };
-  const listen = (/** @type {"keydown" | "keyup"} */ type, /** @type {(event: KeyboardEvent) => boolean} */ hear) => {
+  const listen = (
+    /** @type {"keydown" | "keyup"} */ type,
+    /** @type {(event: KeyboardEvent) => boolean} */ hear,
+  ) => {
     window.addEventListener(
       type,
       (event) => {

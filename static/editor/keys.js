@@ -17,7 +17,11 @@ export const KEYS = [
       bind("g", "pan", "Move the view"),
       bind("Enter", "finish", "Close the outline being drawn"),
       bind("Escape", "cancel", "Drop what is half done, then deselect"),
-      bind("Delete Backspace", "delete", "Delete the vertex under the pointer, else the selected caps; take back a point"),
+      bind(
+        "Delete Backspace",
+        "delete",
+        "Delete the vertex under the pointer, else the selected caps; take back a point",
+      ),
     ],
   ],
   [
@@ -86,7 +90,9 @@ function bind(keys, command, text) {
 }
 
 const COMMAND_OF = new Map(
-  KEYS.flatMap(([, bindings]) => bindings.flatMap(({ keys, command }) => keys.map((key) => [key.toLowerCase(), command]))),
+  KEYS.flatMap(([, bindings]) =>
+    bindings.flatMap(({ keys, command }) => keys.map((key) => [key.toLowerCase(), command])),
+  ),
 );
 
 /** @type {(event: KeyboardEvent) => string | null} */
@@ -103,7 +109,11 @@ function chordOf(event) {
   return `${ctrl}${alt}${event.shiftKey && named ? "shift+" : ""}${key}`;
 }
 
-/** The letter engraved on a Latin keyboard where the layout types another script. @type {(event: KeyboardEvent) => string} */
+/**
+ * The letter engraved on a Latin keyboard where the layout types another script.
+ *
+ * @type {(event: KeyboardEvent) => string}
+ */
 function latin({ key, code }) {
   const foreign = key.length === 1 && key.charCodeAt(0) > 127;
   return foreign && code.startsWith("Key") ? code.slice(3) : key;
@@ -118,7 +128,13 @@ function latin({ key, code }) {
 export function isTyping(event) {
   const target = event.target instanceof Element ? event.target : null;
   if (!target) return false;
-  if (target.closest("input, textarea, select, [contenteditable=''], [contenteditable=true], [role=dialog], dialog")) return true;
-  const walks = event.key.startsWith("Arrow") || event.key === "Tab" || event.key === " " || event.key === "Enter";
+  if (
+    target.closest(
+      "input, textarea, select, [contenteditable=''], [contenteditable=true], [role=dialog], dialog",
+    )
+  )
+    return true;
+  const walks =
+    event.key.startsWith("Arrow") || event.key === "Tab" || event.key === " " || event.key === "Enter";
   return walks && target !== document.body && target.closest("#fairyring-editor") === null;
 }

@@ -12,12 +12,20 @@ const MOST = 4;
  * @returns {(text: string, level?: Level) => void}
  */
 export function noticesIn(host) {
-  const list = element("div", { class: "fairyring-notices", attributes: { role: "status", "aria-live": "polite" } });
+  const list = element("div", {
+    class: "fairyring-notices",
+    attributes: { role: "status", "aria-live": "polite" },
+  });
   list.dataset.fairyringChrome = "";
   host.append(list);
   return (text, level = "info") => {
     const close = element("button", { text: "×", attributes: { "aria-label": "Close", type: "button" } });
-    const notice = element("div", { class: `fairyring-notice is-${level}` }, element("span", { text }), close);
+    const notice = element(
+      "div",
+      { class: `fairyring-notice is-${level}` },
+      element("span", { text }),
+      close,
+    );
     close.addEventListener("click", () => notice.remove());
     for (const old of list.children) if (old.firstChild?.textContent === text) old.remove();
     list.append(notice);

@@ -176,12 +176,17 @@ function drawHandles(context, view, { cap }, desk) {
     }
   }
   const placed = placedWhole(cap);
-  if (placed?.kind === "circle") for (const point of rimPoints(placed)) squareAt(context, toScreen(view, ...point), 3);
+  if (placed?.kind === "circle")
+    for (const point of rimPoints(placed)) squareAt(context, toScreen(view, ...point), 3);
   paintHandles(context, "#ffffff");
   if (active) drawActive(context, view, cap, active);
 }
 
-/** The handle under the pointer, or last dragged: arrow keys move it. @type {(context: Context, view: View, cap: Cap, active: Handle) => void} */
+/**
+ * The handle under the pointer, or last dragged: arrow keys move it.
+ *
+ * @type {(context: Context, view: View, cap: Cap, active: Handle) => void}
+ */
 function drawActive(context, view, cap, active) {
   const placed = placedWhole(cap);
   context.beginPath();
@@ -216,7 +221,11 @@ function paintHandles(context, colour) {
   context.stroke();
 }
 
-/** Whether a vertex of the cap has room for a handle of its own at this scale. @type {(shape: Shape, scale: number) => boolean} */
+/**
+ * Whether a vertex of the cap has room for a handle of its own at this scale.
+ *
+ * @type {(shape: Shape, scale: number) => boolean}
+ */
 export function handlesAreApart({ cap }, scale) {
   const { bounds } = measure(cap);
   if (!bounds) return false;

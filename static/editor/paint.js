@@ -50,7 +50,12 @@ export function paint(context, view, region, { shapes, visible, selected }) {
 /** @type {(shapes: Shape[], view: View, region: Bounds, selected: Set<string>, visible: Visible) => Map<Style, Shape[]>} */
 function groupsOf(shapes, view, region, selected, visible) {
   /** @type {Map<Style, Shape[]>} */
-  const groups = new Map([["prediction", []], ["ignored", []], ["outline", []], ["selected", []]]);
+  const groups = new Map([
+    ["prediction", []],
+    ["ignored", []],
+    ["outline", []],
+    ["selected", []],
+  ]);
   const near = grown(region, 24 / view.scale);
   for (const shape of shapes) {
     const bounds = reachOf(shape);
@@ -136,7 +141,12 @@ function strokeOutlines(context, view, shapes, style, fine) {
   for (const shape of shapes) {
     traceVisible(context, view, shape);
     if (fine) strokeShaded(context, colour);
-    else strokeCased(context, { colour, width: style === "ignored" ? 1 : 1.5, casing: style === "ignored" ? null : CASING });
+    else
+      strokeCased(context, {
+        colour,
+        width: style === "ignored" ? 1 : 1.5,
+        casing: style === "ignored" ? null : CASING,
+      });
   }
   context.setLineDash([]);
 }
@@ -193,7 +203,8 @@ function labelOf({ cap, score, whole }) {
   const parts = [];
   if (cap.doubtful) parts.push("?");
   if (score !== null) parts.push(score.toFixed(2));
-  else if (whole) parts.push(`⌀ ${Math.round(2 * Math.sqrt(whole.kind === "circle" ? whole.r ** 2 : whole.a * whole.b))}`);
+  else if (whole)
+    parts.push(`⌀ ${Math.round(2 * Math.sqrt(whole.kind === "circle" ? whole.r ** 2 : whole.a * whole.b))}`);
   if (cap.order !== null && cap.order !== 0) parts.push(cap.order > 0 ? `▲${cap.order}` : `▼${-cap.order}`);
   if (cap.ignored) parts.push("ignored");
   return parts.join(" ");

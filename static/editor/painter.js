@@ -38,7 +38,11 @@ function carryOut({ fresh, gone, lifted, selected, visible, view, width, height,
   if (!context) throw new Error("This browser cannot draw on a canvas.");
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   const away = new Set(lifted);
-  const picture = { shapes: [...shapes.values()].filter(({ uid }) => !away.has(uid)), visible, selected: new Set(selected) };
+  const picture = {
+    shapes: [...shapes.values()].filter(({ uid }) => !away.has(uid)),
+    visible,
+    selected: new Set(selected),
+  };
   paint(context, view, visibleBounds(view, { width, height }), picture);
   return canvas.transferToImageBitmap();
 }

@@ -16,7 +16,11 @@ import { toImage, toScreen } from "./view.js";
  */
 export function expose(host, { desk, frame, waiting, connection, tool }) {
   const view = {
-    /** Page coordinates of an image point, ready for a mouse. @type {(x: number, y: number) => {x: number, y: number}} */
+    /**
+     * Page coordinates of an image point, ready for a mouse.
+     *
+     * @type {(x: number, y: number) => {x: number, y: number}}
+     */
     toScreen(x, y) {
       const box = host.getBoundingClientRect();
       const [sx, sy] = toScreen(desk.view, x, y);
@@ -38,7 +42,9 @@ export function expose(host, { desk, frame, waiting, connection, tool }) {
     },
     /** Caps people agreed on, as they look now. */
     get shapes() {
-      return desk.items.filter((shape) => !isPrediction(shape)).map((shape) => desk.drafts.get(shape.uid) ?? shape);
+      return desk.items
+        .filter((shape) => !isPrediction(shape))
+        .map((shape) => desk.drafts.get(shape.uid) ?? shape);
     },
     get predictions() {
       return desk.items.filter(isPrediction);

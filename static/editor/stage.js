@@ -7,13 +7,20 @@
 
 const HOST_ID = "fairyring-editor";
 
-/** The element everything of the editor is put into; the same one for the life of the page. @returns {HTMLElement} */
+/**
+ * The element everything of the editor is put into; the same one for the life of the page.
+ *
+ * @returns {HTMLElement}
+ */
 export function createHost() {
   const host = document.createElement("div");
   host.id = HOST_ID;
   host.tabIndex = 0;
   host.setAttribute("role", "application");
-  host.setAttribute("aria-label", "Photo with the outlines of the caps. Press the question mark for the keys.");
+  host.setAttribute(
+    "aria-label",
+    "Photo with the outlines of the caps. Press the question mark for the keys.",
+  );
   return host;
 }
 

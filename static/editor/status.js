@@ -24,7 +24,10 @@ export function statusIn(host) {
 export function statusOf({ connection, waiting, kept, clashes }) {
   const clash = clashes ? ` · ${count(clashes, "conflict")} to settle` : "";
   if (!kept) {
-    return { text: `${count(waiting, "edit")} not saved, and this browser cannot keep them: leave this page open${clash}`, tone: "bad" };
+    return {
+      text: `${count(waiting, "edit")} not saved, and this browser cannot keep them: leave this page open${clash}`,
+      tone: "bad",
+    };
   }
   if (connection !== "online") {
     const kept = waiting ? `, ${count(waiting, "edit")} kept in this browser` : "";

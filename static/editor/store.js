@@ -78,9 +78,7 @@ export class Store {
  * @returns {Change[]}
  */
 export function inverse(changes) {
-  return changes
-    .map(({ before, after }) => ({ before: after, after: before ?? released(after) }))
-    .reverse();
+  return changes.map(({ before, after }) => ({ before: after, after: before ?? released(after) })).reverse();
 }
 
 /** @type {(shape: Shape) => Shape} */

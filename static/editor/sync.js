@@ -140,7 +140,11 @@ export class Sync {
     });
   }
 
-  /** What a person goes on changing while a conflict waits belongs to their side of it. @type {(shape: Shape) => void} */
+  /**
+   * What a person goes on changing while a conflict waits belongs to their side of it.
+   *
+   * @type {(shape: Shape) => void}
+   */
   #foldIntoHeld(shape) {
     const held = this.#outbox?.holds(shape.uid) ? this.#outbox.lastOf(shape.uid) : null;
     if (held) this.#outbox?.hold({ ...held, cap: shape.deleted ? null : shape.cap });
@@ -240,7 +244,8 @@ export class Sync {
     const known = this.#confirmed.get(edit.annotation);
     const shape = this.#wires.store.get(edit.annotation);
     if (known) this.#adopt(known);
-    else if (shape) this.#wires.store.apply([{ before: shape, after: { ...shape, deleted: true } }], "remote");
+    else if (shape)
+      this.#wires.store.apply([{ before: shape, after: { ...shape, deleted: true } }], "remote");
   }
 
   /**
@@ -269,7 +274,9 @@ export class Sync {
    * @param {Annotation[]} annotations
    */
   changed(image, annotations) {
-    const moved = annotations.filter(({ uid, revision }) => revision > (this.#confirmed.get(uid)?.revision ?? 0));
+    const moved = annotations.filter(
+      ({ uid, revision }) => revision > (this.#confirmed.get(uid)?.revision ?? 0),
+    );
     this.#histories.get(image)?.forget(new Set(moved.map(({ uid }) => uid)));
     for (const annotation of annotations) {
       if (annotation.revision < (this.#confirmed.get(annotation.uid)?.revision ?? 0)) continue;

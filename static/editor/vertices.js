@@ -70,7 +70,8 @@ export function nearestEdges(cap, [x, y], reach) {
       const distance = Math.hypot(foot[0] - x, foot[1] - y);
       if (distance > best + 1e-9) continue;
       const edge = { ring: r, index: i / 2 };
-      const same = found && found.edges[0].ring !== r && foot[0] === found.foot[0] && foot[1] === found.foot[1];
+      const same =
+        found && found.edges[0].ring !== r && foot[0] === found.foot[0] && foot[1] === found.foot[1];
       found = found && same ? { edges: [...found.edges, edge], foot } : { edges: [edge], foot };
       best = distance;
     }

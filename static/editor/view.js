@@ -51,7 +51,10 @@ export function zoomed(view, { x, y, factor, smallest }) {
 export function fitted(bounds, size, margin) {
   const width = Math.max(bounds.x1 - bounds.x0, 1e-6);
   const height = Math.max(bounds.y1 - bounds.y0, 1e-6);
-  const room = { width: Math.max(size.width - 2 * margin, 16), height: Math.max(size.height - 2 * margin, 16) };
+  const room = {
+    width: Math.max(size.width - 2 * margin, 16),
+    height: Math.max(size.height - 2 * margin, 16),
+  };
   const scale = Math.min(room.width / width, room.height / height, LARGEST_SCALE);
   return {
     scale,

@@ -14,6 +14,7 @@ import numpy as np
 
 from model.geometry import (
     Circle,
+    Ellipse,
     Polygon,
     area_of_outline,
     bounds_of_outline,
@@ -32,9 +33,12 @@ def annotation_entry(annotation: Annotation, *, number: int, image: int, categor
     """One annotation. ``image`` and ``category`` are numbers within the file."""
     cap = annotation.cap
     marked = cap.mark is not None
-    entry = _geometry(cap.visible, cap.mark, annotation.whole)
+    whole, centre = annotation.whole, annotation.centre
+    if isinstance(cap.mark, Circle | Ellipse):
+        whole, centre = cap.mark, (cap.mark.cx, cap.mark.cy)
+    entry = _geometry(cap.visible, cap.mark, whole)
     entry |= {"image_id": image, "category_id": category, "iscrowd": int(cap.ignored), "marked": marked}
-    entry |= _centre(annotation.centre, visibility=MARKED if marked else RECONSTRUCTED)
+    entry |= _centre(centre, visibility=MARKED if marked else RECONSTRUCTED)
     entry |= {"doubt": True} if cap.doubtful else {}
     entry |= {"ignored": True} if cap.ignored else {}
     entry |= {} if cap.order is None else {"order": cap.order}

@@ -6,11 +6,11 @@
  */
 
 import { boundsOfWhole, hundredths, insideCap, newCap, placedWhole } from "../caps.js";
-import { changed, withCap } from "../desk.js";
 import { SMALLEST_RADIUS, movedHandle, nearestHandle } from "../handles.js";
 import { pick } from "../hit.js";
 import { CASING, COLOURS, FILLS } from "../palette.js";
 import { strokeCased, traceCross, traceWhole } from "../pen.js";
+import { changed, withCap } from "../shapes.js";
 import { newId } from "../tabs.js";
 import { toScreen } from "../view.js";
 import { CLICK_PX, GRAB_PX, apart } from "./tool.js";

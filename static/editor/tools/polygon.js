@@ -121,7 +121,9 @@ export class PolygonTool {
   /** @type {import("../overlay.js").Sketch} */
   sketch = (context, view) => {
     if (this.#points.length === 0) return null;
-    const points = this.#next ? [...this.#points, this.#closing ? this.#points[0] : this.#next] : this.#points;
+    const points = this.#next
+      ? [...this.#points, this.#closing ? this.#points[0] : this.#next]
+      : this.#points;
     context.beginPath();
     traceRing(context, view, points.flat(), false);
     context.fillStyle = FILLS.selected;
@@ -140,6 +142,11 @@ export class PolygonTool {
     context.stroke();
     const xs = points.map(([x]) => x * view.scale + view.x);
     const ys = points.map(([, y]) => y * view.scale + view.y);
-    return { x0: Math.min(...xs) - 8, y0: Math.min(...ys) - 8, x1: Math.max(...xs) + 8, y1: Math.max(...ys) + 8 };
+    return {
+      x0: Math.min(...xs) - 8,
+      y0: Math.min(...ys) - 8,
+      x1: Math.max(...xs) + 8,
+      y1: Math.max(...ys) + 8,
+    };
   };
 }

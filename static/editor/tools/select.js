@@ -6,10 +6,10 @@
  */
 
 import { hundredths, insideCap } from "../caps.js";
-import { changed, movedShape, withCap } from "../desk.js";
 import { movedHandle, nearestHandle, sameHandle } from "../handles.js";
 import { pick, within } from "../hit.js";
 import { handlesAreApart } from "../overlay.js";
+import { changed, movedShape, withCap } from "../shapes.js";
 import { insertedVertices, nearestEdges, removedVertices } from "../vertices.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 

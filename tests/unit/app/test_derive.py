@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.derive import derive_edits, fill_in, outlines_of, refit, whole_of
+from app.derive import derive_edits, fill_in, refit, whole_of
 from app.gateway.messages import Refit
-from app.nearby import box_of, keys_near
+from app.nearby import Boxes, box_of, keys_near
+from app.scene import Scene, scene_of
 from model.geometry import Circle, Ellipse, Polygon, diameter_of_shape
 from storage.derived import images_with_underived
 from storage.documents import load_annotations, load_document
@@ -17,23 +18,24 @@ from tests.unit.app.conftest import circle
 from tests.unit.app.tab import SQUARE, new_cap
 
 IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=160, height=120, sha256="")
+SCENE = Scene(IMAGE, {}, [])
 
 
 def test_a_mark_is_its_own_whole_outline() -> None:
     for mark in (Circle(50, 40, 10), Ellipse(50, 40, 12, 10, 30)):
-        whole = whole_of(SQUARE, mark, image=IMAGE, around={})
+        whole = whole_of("a", Cap(visible=SQUARE, mark=mark), SCENE)
         assert whole.shape == mark
         assert whole.centre == (50, 40)
 
 
 def test_a_marked_polygon_gives_the_ellipse_fitted_to_its_points() -> None:
-    whole = whole_of([], Polygon(circle(60, 50, 20, points=20)[0]), image=IMAGE, around={})
+    whole = whole_of("a", Cap(visible=[], mark=Polygon(circle(60, 50, 20, points=20)[0])), SCENE)
     assert whole.centre == pytest.approx((60, 50), abs=1e-6)
     assert "polygon" in whole.note
 
 
 def test_a_round_cap_is_found_where_it_is() -> None:
-    whole = whole_of(circle(70.25, 55.5, 24), None, image=IMAGE, around={})
+    whole = whole_of("a", Cap(visible=circle(70.25, 55.5, 24)), SCENE)
     assert whole.centre == pytest.approx((70.25, 55.5), abs=0.1)
     assert whole.shape is not None
     assert diameter_of_shape(whole.shape) == pytest.approx(48, abs=1)
@@ -43,21 +45,22 @@ def test_a_round_cap_is_found_where_it_is() -> None:
     "visible", [[], [[]], [[1.0, 2.0]], [[1.0, 2.0, 3.0]], [[1e12, 0.0, 0.0, 1e12, -1e12, 0.0]], [[5.0] * 8]]
 )
 def test_a_wild_outline_gives_a_sentence_and_never_reaches_the_rasteriser(visible: list) -> None:
-    whole = whole_of(visible, None, image=IMAGE, around={})
+    whole = whole_of("a", Cap(visible=visible), SCENE)
     assert whole.shape is None
     assert whole.note.endswith(".")
 
 
 @pytest.mark.parametrize("mark", [Circle(50, 40, -1), Circle(1e12, 0, 5), Polygon([1.0, 2.0, 3.0])])
 def test_a_wild_mark_gives_a_sentence(mark: Circle | Polygon) -> None:
-    assert whole_of(SQUARE, mark, image=IMAGE, around={}).shape is None
+    assert whole_of("a", Cap(visible=SQUARE, mark=mark), SCENE).shape is None
 
 
 def test_neighbours_are_those_whose_boxes_touch() -> None:
+    boxes = Boxes()
     others = {"touching": circle(80, 40, 20), "far": circle(150, 40, 5), "nothing": []}
-    assert keys_near(circle(40, 40, 20), others) == ["touching"]
-    assert keys_near(circle(40, 40, 20), others, reach=3.0) == ["touching", "far"]
-    assert keys_near([], others) == []
+    assert keys_near(circle(40, 40, 20), others, boxes=boxes) == ["touching"]
+    assert keys_near(circle(40, 40, 20), others, reach=3.0, boxes=boxes) == ["touching", "far"]
+    assert keys_near([], others, boxes=boxes) == []
     assert box_of(SQUARE) == (20.0, 20.0, 60.0, 60.0)
 
 
@@ -68,14 +71,15 @@ def test_context_leaves_out_predictions_that_somebody_took_up(project: Project) 
     commit(project, [Derived(edit=new_cap(1, prediction=left.id))], user="Ada")
     with project.read() as connection:
         annotations = {a.uid: a for a in load_annotations(connection, 1)}
-    assert set(outlines_of(document, annotations)) == {"cap-1", f"prediction {right.id}"}
+    scene = Scene(document.image, annotations, document.predictions)
+    assert set(scene.visible) == {"cap-1", f"prediction {right.id}"}
 
 
 def test_a_refit_says_what_the_edit_will_store(project: Project) -> None:
     cap = Cap(visible=circle(90, 70, 18))
     with project.read() as connection:
         document = load_document(connection, 1)
-    fit = refit(document, {}, Refit(seq=1, image=1, annotation="a", cap=cap))
+    fit = refit(scene_of(document), Refit(seq=1, image=1, annotation="a", cap=cap))
     stored = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])[0]
     assert fit.whole == stored.whole
     assert fit.centre == stored.centre

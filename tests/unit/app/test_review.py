@@ -10,6 +10,7 @@ from app.derive import fill_in
 from app.gateway.messages import Show
 from app.jobs import CancelledError
 from app.review import Reviewer, compare_cap, compare_image, compare_work
+from app.scene import Scene
 from model.geometry import Circle
 from storage.comparisons import get_comparison, list_comparisons, stale_images
 from storage.documents import load_annotations, load_predictions
@@ -59,12 +60,12 @@ def test_a_cap_is_compared_among_its_neighbours_with_the_same_result(project: Pr
     with project.read() as connection:
         image = get_image(connection, 1)
         annotations = {a.uid: a for a in load_annotations(connection, 1)}
-        predictions = load_predictions(connection, 1)
-    pair = compare_cap(image, annotations, predictions, "left")
+        scene = Scene(image, annotations, load_predictions(connection, 1))
+    pair = compare_cap(scene, "left")
     assert pair is not None
     assert pair.error is not None
     assert pair.error.cdr == pytest.approx(1.5)
-    assert compare_cap(image, annotations, predictions, "far") is None
+    assert compare_cap(scene, "far") is None
 
 
 def test_an_image_no_run_has_seen_is_not_compared(project: Project) -> None:

@@ -1,0 +1,53 @@
+"""An image with its caps, at one moment, as a tab or the store knows it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from app.nearby import Boxes
+from model.geometry import polygon_of_shape
+from storage.records import Annotation, Document, Image, Outline, Prediction
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What a cap is worked out and judged among."""
+
+    image: Image
+    annotations: Mapping[str, Annotation]
+    """By uid; deleted ones may be among them."""
+    predictions: Sequence[Prediction]
+    boxes: Boxes = field(default_factory=Boxes)
+
+    @property
+    def visible(self) -> dict[str, Outline]:
+        """What is visible of every cap: the live annotations, and the predictions nobody has touched."""
+        touched = {annotation.cap.prediction for annotation in self.annotations.values()}
+        live = {uid: a.cap.visible for uid, a in self.annotations.items() if not a.deleted}
+        return live | {key_of(p.id): p.visible for p in self.predictions if p.id not in touched}
+
+    def around(self, uid: str, *, prediction: int | None) -> dict[str, Outline]:
+        """What is visible of all caps but one, and the prediction it started from."""
+        visible = self.visible
+        visible.pop(uid, None)
+        visible.pop(key_of(prediction), None)
+        return visible
+
+
+def scene_of(document: Document) -> Scene:
+    """The scene as the store knows it."""
+    annotations = {annotation.uid: annotation for annotation in document.annotations}
+    return Scene(document.image, annotations, document.predictions)
+
+
+def key_of(prediction: int | None) -> str:
+    """The name of a prediction among outlines; no uid looks like it."""
+    return f"prediction {prediction}"
+
+
+def covered_by(annotation: Annotation) -> Outline:
+    """What a cap covers: what is visible of it, else all of a mark placed without an outline."""
+    if annotation.cap.visible or annotation.whole is None:
+        return annotation.cap.visible
+    return [polygon_of_shape(annotation.whole)]

@@ -1,0 +1,56 @@
+"""The messages as the browser types them are those the server takes and sends."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import get_args
+
+import msgspec
+import pytest
+
+from app.gateway import messages
+from model.geometry import Circle, Ellipse, Polygon
+from storage import records
+
+SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "messages.js").read_text(encoding="utf-8")
+STRUCTS = (
+    records.Image,
+    records.Cap,
+    records.Annotation,
+    records.Prediction,
+    records.Run,
+    records.Edit,
+    records.Document,
+    *get_args(records.Outcome),
+    Circle,
+    Ellipse,
+    Polygon,
+    *get_args(messages.Incoming),
+    *get_args(messages.Outgoing),
+)
+
+
+def typed() -> dict[str, dict[str, str]]:
+    """Name → property → type, of every object typedef."""
+    blocks = re.findall(r"@typedef \{Object\} (\w+)(.*?)\*/", SOURCE, re.DOTALL)
+    properties = re.compile(r"@property \{(.+?)\} (\w+)$", re.MULTILINE)
+    return {name: {field: kind for kind, field in properties.findall(body)} for name, body in blocks}
+
+
+@pytest.mark.parametrize("struct", STRUCTS, ids=lambda struct: struct.__name__)
+def test_the_browser_knows_every_field_and_no_other(struct: type[msgspec.Struct]) -> None:
+    properties = typed()[struct.__name__]
+    config = struct.__struct_config__
+    fields = set(struct.__struct_encode_fields__)
+    if config.tag is not None:
+        assert properties[str(config.tag_field)] == f'"{config.tag}"'
+        fields.add(str(config.tag_field))
+    assert set(properties) == fields
+
+
+def test_the_unions_of_messages_are_the_same() -> None:
+    for union, name in ((messages.Incoming, "ToServer"), (messages.Outgoing, "FromServer")):
+        written = re.search(rf"@typedef \{{([^}}]+)\}} {name} ", SOURCE)
+        assert written is not None
+        assert set(written[1].split(" | ")) == {struct.__name__ for struct in get_args(union)}

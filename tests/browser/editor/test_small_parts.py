@@ -1,0 +1,123 @@
+"""Keys, the status line, live fits, the connection."""
+
+from __future__ import annotations
+
+import pytest
+
+
+def test_every_key_runs_a_command_that_exists_and_no_key_runs_two(call) -> None:
+    body = """
+      const {KEYS} = await import('/editor/keys.js');
+      const all = KEYS.flatMap(([, bindings]) => bindings);
+      const keys = all.flatMap((binding) => binding.keys.map((key) => key.toLowerCase()));
+      const missing = all.filter(({command}) => !(command in m.COMMANDS)).map(({command}) => command);
+      return [missing, keys.filter((key, i) => keys.indexOf(key) !== i)];
+    """
+    assert call("commands", body) == [[], []]
+
+
+@pytest.mark.parametrize(
+    ("event", "command"),
+    [
+        ({"key": "z", "ctrlKey": True}, "undo"),
+        ({"key": "Z", "ctrlKey": True, "shiftKey": True}, "redo"),
+        ({"key": "z", "metaKey": True}, "undo"),
+        ({"key": "?", "shiftKey": True}, "help"),
+        ({"key": "Tab", "shiftKey": True}, "previous_cap"),
+        ({"key": "A", "shiftKey": True}, "accept_all"),
+        ({"key": "ArrowLeft", "shiftKey": True}, "push_left"),
+        ({"key": "ф", "code": "KeyA"}, "accept"),
+        ({"key": "r", "ctrlKey": True}, None),
+    ],
+)
+def test_a_chord_runs_its_command_on_any_layout(call, event: dict, command: str | None) -> None:
+    assert call("keys", "return m.commandOf(new KeyboardEvent('keydown', a))", event) == command
+
+
+@pytest.mark.parametrize(
+    ("state", "text"),
+    [
+        ({"connection": "online", "waiting": 0, "kept": True, "clashes": 0}, "Saved"),
+        ({"connection": "online", "waiting": 1, "kept": True, "clashes": 0}, "Saving 1 edit…"),
+        (
+            {"connection": "offline", "waiting": 3, "kept": True, "clashes": 0},
+            "Offline, 3 edits kept in this browser",
+        ),
+        ({"connection": "online", "waiting": 0, "kept": True, "clashes": 2}, "Saved · 2 conflicts to settle"),
+    ],
+)
+def test_the_status_line_says_what_is_so(call, state: dict, text: str) -> None:
+    assert call("status", "return m.statusOf(a).text", state) == text
+
+
+def test_the_status_line_never_says_saved_when_edits_could_not_be_kept(call) -> None:
+    state = {"connection": "offline", "waiting": 2, "kept": False, "clashes": 0}
+    status = call("status", "return m.statusOf(a)", state)
+    assert "not saved" in status["text"]
+    assert status["tone"] == "bad"
+
+
+def test_one_fit_is_asked_for_at_a_time_and_the_latest_wins(call) -> None:
+    body = """
+      const sent = [];
+      const refits = new m.Refits((message) => sent.push(message) > 0);
+      const question = (name) => ({image: 1, annotation: 'u', cap: name});
+      for (const name of ['a', 'b', 'c']) refits.ask(question(name));
+      const late = refits.take({seq: 99});
+      const first = refits.take({seq: 1});
+      const second = refits.take({seq: 2});
+      return [sent.map(({seq, cap}) => [seq, cap]), late, first.cap, second.cap];
+    """
+    assert call("refits", body) == [[[1, "a"], [2, "c"]], None, "a", "c"]
+
+
+FAKE_SOCKET = """
+  const sockets = [];
+  window.WebSocket = class extends EventTarget {
+    static OPEN = 1;
+    readyState = 1;
+    sent = [];
+    constructor() { super(); sockets.push(this); setTimeout(() => this.dispatchEvent(new Event('open'))); }
+    send(text) { this.sent.push(JSON.parse(text)); }
+    close() { this.dispatchEvent(new CloseEvent('close', {code: 1006})); }
+    say(message) { this.dispatchEvent(new MessageEvent('message', {data: JSON.stringify(message)})); }
+  };
+  const states = [];
+  const rest = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+  const line = new m.Transport('ws://nowhere', {
+    hello: (token) => ({type: 'hello', token, image: null}),
+    message() {},
+    closed() {},
+    state: (state) => states.push(state),
+  });
+"""
+
+
+def test_a_new_token_opens_a_connection_at_once_and_only_a_welcome_makes_it_online(call) -> None:
+    body = (
+        FAKE_SOCKET
+        + """
+      line.offer('one'); await rest(30);
+      const early = line.send({type: 'saving', waiting: 0});
+      sockets[0].say({type: 'welcome', user: 'Ada', project: 'p'});
+      const late = line.send({type: 'saving', waiting: 0});
+      return [early, late, sockets[0].sent.map(({type}) => type), states];
+    """
+    )
+    assert call("transport", body) == [False, True, ["hello", "saving"], ["online"]]
+
+
+def test_a_broken_connection_is_tried_again_with_the_token_in_the_page(call) -> None:
+    body = (
+        FAKE_SOCKET
+        + """
+      line.offer('one'); await rest(30);
+      sockets[0].say({type: 'welcome', user: 'Ada', project: 'p'});
+      sockets[0].close();
+      line.offer('two'); await rest(400);
+      const hello = sockets.at(-1).sent[0];
+      sockets.at(-1).say({type: 'welcome', user: 'Ada', project: 'p'});
+      return [hello.token, states];
+    """
+    )
+    assert call("transport", body) == ["two", ["online", "offline", "online"]]

@@ -1,0 +1,304 @@
+"""Centres against the truth: matching, Eq. 10, what is ignored, and the figures of the command."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from model.documents import CapRecord, DocumentError
+from model.errors import FairyringError
+from model.evaluate import centre_error, compare, evaluate_centres, summarise
+from model.geometry import Circle, polygon_of_shape
+from model.raster import rle_of_mask
+
+WIDTH, HEIGHT = 200, 100
+
+
+def box(x: int, y: int, w: int, h: int) -> dict[str, Any]:
+    mask = np.zeros((HEIGHT, WIDTH), np.uint8)
+    mask[y : y + h, x : x + w] = 1
+    return rle_of_mask(mask)
+
+
+def cap(x: int, y: int, w: int = 20, h: int = 20, **other: Any) -> CapRecord:
+    """A square cap with its centre in the middle."""
+    return CapRecord(rle=box(x, y, w, h), **{"centre": (x + w / 2, y + h / 2), "diameter": 20.0, **other})
+
+
+def compared(truths: list[CapRecord], predictions: list[CapRecord]) -> Any:
+    return compare(truths, predictions, width=WIDTH, height=HEIGHT)
+
+
+def test_cdr_is_equation_10_in_percent_beside_pixels_and_diameters() -> None:
+    error = centre_error((103.0, 46.0), (100.0, 50.0), width=200, height=100, diameter=25)
+
+    # |3| / 200 + |-4| / 100 = 1.5 % + 4 %; the hypotenuse of 3 and 4 is 5; 5 / 25.
+    assert (error.cdr, error.px, error.relative) == pytest.approx((5.5, 5.0, 0.2))
+    assert (error.dx, error.dy) == (3.0, -4.0)
+
+
+def test_pairs_are_made_by_mask_and_measured_by_centre() -> None:
+    found = compared([cap(10, 10), cap(100, 50)], [cap(101, 50), cap(10, 12)])
+
+    assert {(pair.truth, pair.prediction) for pair in found.pairs} == {(0, 1), (1, 0)}
+    errors = {pair.truth: pair.error for pair in found.pairs}
+    assert (errors[0].dx, errors[0].dy) == (0, 2)
+    assert (errors[1].dx, errors[1].dy) == (1, 0)
+    assert (found.missed, found.extra) == ([], [])
+
+
+def test_half_an_overlap_makes_a_pair_and_less_does_not() -> None:
+    # 20 × 20 against the same shifted by 6: 280 / 520 = .54; by 7: 260 / 540 = .48.
+    assert len(compared([cap(10, 10)], [cap(16, 10)]).pairs) == 1
+    found = compared([cap(10, 10)], [cap(17, 10)])
+    assert (found.pairs, found.missed, found.extra) == ([], [0], [0])
+
+
+def test_the_best_of_several_predictions_gets_the_cap_and_the_others_are_extra() -> None:
+    found = compared([cap(10, 10)], [cap(12, 10), cap(11, 10), cap(13, 10)])
+
+    assert [(pair.truth, pair.prediction) for pair in found.pairs] == [(0, 1)]
+    assert found.extra == [0, 2]
+
+
+def test_an_unmarked_cap_is_matched_but_has_no_error() -> None:
+    found = compared([cap(10, 10, centre=None)], [cap(10, 10)])
+
+    assert len(found.pairs) == 1
+    assert found.errors == []
+
+
+def test_predictions_in_ignored_regions_are_dropped_once_the_others_are_matched() -> None:
+    truths = [cap(10, 10), cap(10, 10, 40, 40, ignored=True)]
+    predictions = [
+        cap(10, 10),  # the real cap's, though it lies in the ignored region
+        cap(25, 25),  # wholly inside: dropped
+        cap(40, 20),  # half inside: dropped
+        cap(41, 20),  # 9 of 20 columns inside: extra
+    ]
+
+    found = compared(truths, predictions)
+
+    assert [(pair.truth, pair.prediction) for pair in found.pairs] == [(0, 0)]
+    assert found.extra == [3]
+    assert found.missed == []
+
+
+def test_an_ignored_cap_is_never_missed_and_takes_no_partner() -> None:
+    found = compared([cap(10, 10, ignored=True)], [cap(10, 10)])
+
+    assert (found.pairs, found.missed, found.extra) == ([], [], [])
+
+
+def test_an_image_without_caps_or_predictions_is_compared_too() -> None:
+    assert compared([], []).pairs == []
+    assert compared([], [cap(1, 1)]).extra == [0]
+    assert compared([cap(1, 1)], []).missed == [0]
+
+
+@given(
+    places=st.lists(st.tuples(st.integers(0, 150), st.integers(0, 60)), max_size=5),
+    guesses=st.lists(st.tuples(st.integers(0, 150), st.integers(0, 60)), max_size=5),
+)
+@settings(max_examples=60, deadline=None)
+def test_every_cap_is_paired_or_missed_once(
+    places: list[tuple[int, int]], guesses: list[tuple[int, int]]
+) -> None:
+    found = compared([cap(*place) for place in places], [cap(*guess) for guess in guesses])
+
+    assert sorted([*(pair.truth for pair in found.pairs), *found.missed]) == list(range(len(places)))
+    assert sorted([*(pair.prediction for pair in found.pairs), *found.extra]) == list(range(len(guesses)))
+
+
+def test_figures_over_caps_are_mean_median_and_95th_percentile() -> None:
+    errors = [
+        centre_error((x, 0.0), (0.0, 0.0), width=100, height=100, diameter=diameter)
+        for x, diameter in [(1.0, 10.0), (2.0, 10.0), (3.0, None), (-10.0, 20.0)]
+    ]
+
+    summary = summarise(errors)
+
+    assert summary.cdr.mean == pytest.approx(4.0)
+    assert summary.cdr.median == pytest.approx(2.5)
+    # Between 3 and 10 at rank 0.95 · 3 = 2.85.
+    assert summary.px.p95 == pytest.approx(3 + 0.85 * 7)
+    assert summary.relative.mean == pytest.approx((0.1 + 0.2 + 0.5) / 3)
+    assert summary.bias_px == pytest.approx((-1.0, 0.0))
+
+
+def test_nothing_to_average_gives_none() -> None:
+    summary = summarise([])
+    assert (summary.cdr.mean, summary.px.p95, summary.bias_px) == (None, None, None)
+
+
+# Documents
+
+
+def document(*annotations: dict[str, Any], name: str = "beds/a.jpg", image_id: int = 7) -> dict[str, Any]:
+    return {
+        "images": [{"id": image_id, "file_name": name, "width": WIDTH, "height": HEIGHT}],
+        "annotations": [{"id": i, "image_id": image_id, **a} for i, a in enumerate(annotations, start=1)],
+        "categories": [{"id": 1, "name": "mushroom"}],
+    }
+
+
+def disc(cx: float, cy: float, r: float = 15.0) -> list[list[float]]:
+    return [polygon_of_shape(Circle(cx, cy, r), chord_error=0.02)]
+
+
+def test_the_command_s_figures_have_the_agreed_shape() -> None:
+    truth = document(
+        {"segmentation": disc(50, 50), "circle": [50, 50, 15]},
+        {"segmentation": disc(120, 50), "center": [120, 50]},
+    )
+    predicted = document({"segmentation": disc(52, 51), "center": [52, 51]}, name="a.jpg", image_id=1)
+
+    figures = json.loads(json.dumps(evaluate_centres(predicted, truth)))
+
+    # |2| / 200 + |1| / 100 = 2 %; √5 px, over 30 px.
+    spread = {"mean": pytest.approx(2.0), "median": pytest.approx(2.0), "p95": pytest.approx(2.0)}
+    assert figures == {
+        "cdr": spread,
+        "px": dict.fromkeys(("mean", "median", "p95"), pytest.approx(5**0.5)),
+        "relative": dict.fromkeys(("mean", "median", "p95"), pytest.approx(5**0.5 / 30)),
+        "bias_px": [2.0, 1.0],
+        "matched": 1,
+        "missed": 1,
+        "extra": 0,
+        "images": [{"file_name": "a.jpg", "cdr_mean": pytest.approx(2.0), "count": 1}],
+    }
+
+
+@pytest.mark.parametrize(
+    ("keys", "centre"),
+    [
+        ({"center": [48, 47], "circle": [49, 46, 15], "ellipse": [50, 45, 15, 14, 0]}, (48, 47)),
+        ({"center": None, "circle": [49, 46, 15], "ellipse": [50, 45, 15, 14, 0]}, (49, 46)),
+        ({"ellipse": [50, 45, 15, 14, 0]}, (50, 45)),
+        ({}, (51, 44)),
+    ],
+)
+def test_a_centre_is_center_then_the_circle_s_then_the_ellipse_s_then_fitted(
+    keys: dict[str, Any], centre: tuple[float, float]
+) -> None:
+    truth = document({"segmentation": disc(51, 44), "center": [0, 0]})
+    predicted = document({"segmentation": disc(51, 44), **keys})
+
+    figures = evaluate_centres(predicted, truth)
+
+    assert figures["bias_px"] == pytest.approx(centre, abs=1e-3)
+
+
+def test_the_centre_of_a_mask_is_fitted_to_its_rim_in_continuous_coordinates() -> None:
+    rows, columns = np.mgrid[:HEIGHT, :WIDTH] + 0.5
+    rle = rle_of_mask((columns - 51.5) ** 2 + (rows - 44.5) ** 2 < 15**2)
+    truth = document({"segmentation": disc(51.5, 44.5), "center": [51.5, 44.5]})
+
+    figures = evaluate_centres(document({"segmentation": rle}), truth)
+
+    assert figures["bias_px"] == pytest.approx((0, 0), abs=0.02)
+
+
+def test_pairing_by_id_reads_no_segmentation() -> None:
+    truth = document(
+        {"center": [50, 50]}, {"center": [120, 50]}, {"center": [9, 9]}, {"ignore": True, "center": [1, 1]}
+    )
+    predicted = document(
+        {"center": [50, 51], "segmentation": "nonsense"}, {"center": None, "refusal": "too small"}
+    )
+    predicted["annotations"] += [
+        {"id": 4, "image_id": 7, "center": [90, 90]},
+        {"id": 99, "image_id": 7, "center": [5, 5]},
+    ]
+
+    figures = evaluate_centres(predicted, truth, by="id")
+
+    # 1 is paired, 2 was refused, 3 is not there, 4 is ignored, 99 is nobody's.
+    assert (figures["matched"], figures["missed"], figures["extra"]) == (1, 2, 1)
+    assert figures["cdr"]["mean"] == pytest.approx(1.0)
+
+
+def test_a_refused_cap_is_missed_though_its_mask_fits() -> None:
+    truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
+    predicted = document({"segmentation": disc(50, 50), "center": None, "refusal": "nothing but border"})
+
+    figures = evaluate_centres(predicted, truth)
+
+    assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 1, 0)
+    assert figures["cdr"]["mean"] is None
+
+
+@pytest.mark.parametrize("flag", ["ignore", "ignored", "iscrowd"])
+def test_every_spelling_of_ignored_is_understood(flag: str) -> None:
+    truth = document({"segmentation": disc(50, 50), flag: 1})
+
+    figures = evaluate_centres(document({"segmentation": disc(50, 50)}), truth)
+
+    assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 0, 0)
+
+
+def test_a_list_of_results_goes_by_the_other_side_s_image_ids() -> None:
+    truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
+    results = [{"image_id": 7, "category_id": 1, "score": 0.9, "segmentation": disc(50, 50)}]
+
+    assert evaluate_centres(results, truth)["matched"] == 1
+    assert evaluate_centres(truth, results)["matched"] == 1
+    with pytest.raises(DocumentError, match="sizes are needed"):
+        evaluate_centres(results, results)
+
+
+def test_only_the_truth_s_images_count() -> None:
+    truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
+    elsewhere = document({"segmentation": disc(50, 50)}, name="other.jpg")
+
+    figures = evaluate_centres(elsewhere, truth)
+
+    assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 1, 0)
+
+
+def two_images_of_one_name() -> dict[str, Any]:
+    twice = document()
+    twice["images"].append({**twice["images"][0], "id": 8, "file_name": "elsewhere\\a.jpg"})
+    return twice
+
+
+def of_another_size() -> dict[str, Any]:
+    other = document()
+    other["images"][0]["width"] = 1
+    return other
+
+
+@pytest.mark.parametrize(
+    ("predicted", "reason"),
+    [
+        (None, "neither a COCO file"),
+        ({"images": {}}, "neither a COCO file"),
+        ([{"segmentation": []}], "which image"),
+        (two_images_of_one_name(), "base file names must differ"),
+        (of_another_size(), "different sizes"),
+        (document({"segmentation": [[1, 1, 5, 5]]}), "Annotation 1 of a.jpg: .*three points"),
+        (document({"segmentation": None}), "Annotation 1 of a.jpg"),
+        (document({"segmentation": {"size": [5, 5], "counts": [0, 25]}}), "not of the image's size"),
+        (document({"segmentation": disc(50, 50), "center": [1, float("nan")]}), "center is not 2 finite"),
+        (document({"segmentation": disc(50, 50), "circle": [1, True, 3]}), "circle is not 3 finite"),
+        (document({"segmentation": disc(50, 50), "ellipse": "round"}), "ellipse is not 5 finite"),
+    ],
+)
+def test_what_cannot_be_evaluated_is_refused_with_its_place(predicted: Any, reason: str) -> None:
+    with pytest.raises(FairyringError, match=reason):
+        evaluate_centres(predicted, document({"segmentation": disc(50, 50)}))
+
+
+def test_pairing_by_id_needs_ids_that_differ() -> None:
+    truth = document({"center": [1, 1]}, {"center": [2, 2]})
+    twice = document({"center": [1, 1]}, {"center": [2, 2], "id": 1})
+
+    with pytest.raises(DocumentError, match="an id each"):
+        evaluate_centres(twice, truth, by="id")
+    with pytest.raises(DocumentError, match="an id each"):
+        evaluate_centres([{"image_id": 7, "center": [1, 1]}], truth, by="id")

@@ -1,0 +1,243 @@
+import json
+from contextlib import suppress
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from model.geometry import Circle, Ellipse, Polygon
+from storage.errors import StoreError
+from storage.formats.coco import parse_coco
+from storage.formats.found import Problem
+
+SQUARE = [10, 10, 30, 10, 30, 30, 10, 30]
+
+
+def parse(annotations=(), *, images=None, **keys):
+    images = [{"id": 1, "file_name": "bed.png", "width": 100, "height": 80}] if images is None else images
+    document = {
+        "images": images,
+        "annotations": [
+            {"id": number, "image_id": 1, "category_id": 1} | entry if isinstance(entry, dict) else entry
+            for number, entry in enumerate(annotations, start=1)
+        ],
+        "categories": [{"id": 1, "name": "mushroom"}],
+    }
+    return parse_coco(json.dumps(document | keys).encode(), file="f.json")
+
+
+def only_cap(entry):
+    found = parse([entry])
+    assert found.problems == []
+    (image,) = found.images
+    (cap,) = image.caps
+    return cap
+
+
+def reasons(found):
+    return [(problem.where, problem.reason) for problem in found.problems]
+
+
+def test_polygons_of_several_parts_stay_apart():
+    parts = [SQUARE, [50, 50, 60, 50, 55, 60]]
+    assert only_cap({"segmentation": parts}).cap.visible == parts
+
+
+def test_a_flat_list_is_one_part():
+    assert only_cap({"segmentation": SQUARE}).cap.visible == [SQUARE]
+
+
+@pytest.mark.parametrize(
+    "rle",
+    [
+        # Columns come first: row 3 of column 0 and row 0 of column 1.
+        {"size": [4, 4], "counts": [3, 2, 11]},
+        {"size": [4, 4], "counts": "32;"},
+    ],
+)
+def test_both_kinds_of_rle_are_the_pixels_they_name(rle):
+    from pycocotools import mask
+
+    cap = only_cap({"segmentation": rle, "iscrowd": 1})
+    assert cap.rle_size == (4, 4)
+    assert cap.cap.ignored
+    drawn = mask.decode(mask.merge(mask.frPyObjects(cap.cap.visible, 4, 4)))
+    assert sorted(zip(*drawn.nonzero(), strict=True)) == [(0, 1), (3, 0)]
+
+
+MARKS = [
+    ({"circle": [20, 21, 5]}, Circle(20, 21, 5)),
+    ({"ellipse": [20, 21, 5, 4, 30]}, Ellipse(20, 21, 5, 4, 30)),
+    ({"ellipse": [20, 21, 4, 5, 30]}, Ellipse(20, 21, 5, 4, 120)),
+    ({"ellipse": [20, 21, 5, 4, 190]}, Ellipse(20, 21, 5, 4, 10)),
+    ({"mark": SQUARE, "marked": True, "ellipse": [20, 20, 5, 4, 3]}, Polygon(SQUARE)),
+    ({"amodal_segmentation": [SQUARE]}, Polygon(SQUARE)),
+    ({"ellipse": [20, 21, 5, 4, 30], "marked": False}, None),
+    ({"circle": [20, 21, 5], "score": 0.5}, None),
+    ({"circle": [20, 21, 5], "center_sd": [0.1, 0.1]}, None),
+    ({"circle": None, "ellipse": None, "center": None}, None),
+]
+
+
+@pytest.mark.parametrize(("keys", "mark"), MARKS)
+def test_a_shape_is_a_mark_where_a_person_placed_it(keys, mark):
+    cap = only_cap({"segmentation": [SQUARE]} | keys)
+    assert cap.cap.mark == mark
+    if "circle" in keys and mark is None and keys["circle"]:
+        assert cap.whole == Circle(20, 21, 5)
+
+
+def test_an_outline_drawn_from_the_mark_is_not_taken_for_one_that_was_seen():
+    drawn = {"segmentation": [SQUARE], "circle": [20, 20, 10], "marked": True, "segmentation_of": "mark"}
+    assert only_cap(drawn).cap.visible == []
+
+
+def test_flags_order_score_and_number_are_read():
+    cap = only_cap({"segmentation": [SQUARE], "doubt": True, "ignore": 1, "order": 4, "score": 1, "uid": "x"})
+    assert (cap.cap.doubtful, cap.cap.ignored, cap.cap.order, cap.score, cap.uid) == (True, True, 4, 1.0, "x")
+
+
+def test_unknown_keys_are_kept_and_known_ones_are_not_repeated():
+    cap = only_cap({"segmentation": [SQUARE], "bbox": [1, 2, 3, 4], "area": 5, "source": {"by": ["me"]}})
+    assert cap.extra == {"source": {"by": ["me"]}}
+    found = parse(
+        images=[{"id": 1, "file_name": "b.png", "light": "dark", "form": "h", "split": "x", "camera": 7}],
+        categories=[{"id": 1, "name": "mushroom", "supercategory": "fungus"}],
+    )
+    (image,) = found.images
+    assert (image.light, image.form, image.split, image.extra) == ("dark", "h", "x", {"camera": 7})
+    assert (image.width, image.height) == (None, None)
+    assert found.categories == {"mushroom": {"supercategory": "fungus"}}
+
+
+def test_a_licence_travels_with_its_image():
+    found = parse(
+        images=[{"id": 1, "file_name": "b.png", "license": 3}], licenses=[{"id": 3, "name": "MIT", "url": ""}]
+    )
+    assert found.images[0].extra == {"license": {"id": 3, "name": "MIT", "url": ""}}
+
+
+@pytest.mark.parametrize(
+    ("entry", "reason"),
+    [
+        ({"category_id": 9, "segmentation": [SQUARE]}, "There is no category 9."),
+        ({"category_id": [], "segmentation": [SQUARE]}, "There is no category []."),
+        ({"segmentation": "many"}, "The segmentation is neither a list of polygons nor an RLE."),
+        ({"segmentation": {"size": [4, 4], "counts": [1, 2]}}, "The counts of the RLE do not add up"),
+        (
+            {"segmentation": {"size": [1 << 20, 1 << 20], "counts": [1 << 40]}},
+            "An RLE of 1048576",
+        ),
+        ({"segmentation": [SQUARE], "circle": [1, 2]}, "The circle is not a list of 3 numbers."),
+        ({"segmentation": [SQUARE], "circle": [1, 2, True]}, "The circle is not a number."),
+        ({"segmentation": [SQUARE], "center": [1, float("nan")]}, "The center is not finite."),
+        ({"segmentation": [SQUARE], "center": [1, 10**400]}, "The center is not finite."),
+        ({"segmentation": [SQUARE], "ellipse": {"cx": 1}}, "The ellipse is not a list of 5 numbers."),
+        ({"segmentation": [SQUARE], "score": "high"}, "The score is not a number."),
+        ({"segmentation": [SQUARE], "iscrowd": 2}, "“iscrowd” is neither true nor false."),
+        ({"segmentation": [SQUARE], "doubt": "no"}, "“doubt” is neither true nor false."),
+    ],
+)
+def test_one_bad_annotation_is_reported_and_the_next_is_taken(entry, reason):
+    found = parse([entry, {"segmentation": [SQUARE]}])
+    assert len(found.images[0].caps) == 1
+    ((where, said),) = reasons(found)
+    assert where == "annotation 1"
+    assert reason in said
+
+
+def test_annotations_of_a_missing_image_are_counted_once():
+    found = parse([{"image_id": 7}, {"image_id": 7}, {"image_id": None}, 5, {"segmentation": [SQUARE]}])
+    assert reasons(found) == [
+        ("image 7", "It is missing or was left out, and 2 annotations with it."),
+        ("image None", "It is missing or was left out, and 2 annotations with it."),
+    ]
+    assert len(found.images[0].caps) == 1
+
+
+def test_duplicate_ids_are_reported():
+    image = {"id": 1, "file_name": "bed.png"}
+    found = parse(
+        [{"id": 5, "segmentation": [SQUARE]}] * 2, images=[image, image | {"file_name": "other.png"}]
+    )
+    assert [image.file_name for image in found.images] == ["bed.png"]
+    assert reasons(found) == [
+        ("image 1", "Another image has this id; only the first is taken."),
+        ("annotation 5", "2 annotations have this id; all are taken."),
+    ]
+    assert len(found.images[0].caps) == 2
+
+
+@pytest.mark.parametrize(
+    ("image", "reason"),
+    [
+        ({"file_name": "b.png"}, "The id is missing"),
+        ({"id": 1.5, "file_name": "b.png"}, "The id is missing"),
+        ({"id": 1}, "The file name is missing."),
+        ({"id": 1, "file_name": 7}, "The file name is missing."),
+        ({"id": 1, "file_name": "b.png", "width": -1}, "The width is not a positive whole number."),
+        ({"id": 1, "file_name": "b.png", "height": "80"}, "The height is not a positive whole number."),
+        ("bed.png", "It is not an object."),
+    ],
+)
+def test_an_image_that_makes_no_sense_is_left_out(image, reason):
+    found = parse(images=[image, {"id": 2, "file_name": "good.png"}])
+    assert [image.file_name for image in found.images] == ["good.png"]
+    assert reason in found.problems[0].reason
+
+
+def test_an_unknown_light_does_not_keep_the_image_out():
+    found = parse(images=[{"id": 1, "file_name": "b.png", "light": "sun"}])
+    assert found.images[0].light is None
+    assert found.images[0].extra == {"light": "sun"}
+    assert reasons(found) == [("image 1", "The light is none of top, side, dark; it was left out.")]
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"", "is not valid JSON"),
+        (b"{", "is not valid JSON"),
+        (b"\xff\xfe{}", "is not valid JSON"),
+        (b"5", "has no list of images"),
+        (b"{}", "has no list of images"),
+        (b'{"images": {}}', "has no list of images"),
+        (b'{"images": [], "annotations": 5}', "annotations are not a list"),
+        (b"[]", "list of results without images"),
+        (b"[" * 100_000, "f.json"),
+    ],
+)
+def test_what_is_no_coco_file_is_named(data, reason):
+    with pytest.raises(StoreError, match=reason) as caught:
+        parse_coco(data, file="f.json")
+    assert "f.json" in str(caught.value)
+
+
+def test_a_byte_order_mark_is_no_obstacle():
+    assert parse_coco(b'\xef\xbb\xbf{"images": []}', file="f.json").images == []
+
+
+def test_a_problem_reads_as_one_line():
+    assert str(Problem("f.json", "annotation 3", "It is bad.")) == "f.json: annotation 3: It is bad."
+    assert str(Problem("f.json", "", "It is bad.")) == "f.json: It is bad."
+
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=4),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=4), inner, max_size=3),
+    max_leaves=8,
+)
+IMAGE_KEYS = ["id", "file_name", "width", "light", "license"]
+KEYS = ["id", "image_id", "category_id", "segmentation", "iscrowd", "circle", "ellipse", "center", "score"]
+KEYS += ["mark", "marked", "amodal_segmentation", "ignore", "doubt", "order", "uid", "segmentation_of"]
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    annotations=st.lists(st.dictionaries(st.sampled_from(KEYS), anything) | anything, max_size=3),
+    images=st.lists(st.dictionaries(st.sampled_from(IMAGE_KEYS), anything) | anything, max_size=2),
+    categories=anything,
+)
+def test_whatever_a_file_holds_it_is_read_or_refused_in_words(annotations, images, categories):
+    with suppress(StoreError):
+        parse(annotations, images=images, categories=categories, licenses=categories)
