@@ -66,7 +66,8 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
     bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
     z = pile_up(planted.seen, planted.owners, bare.z)
-    lit = _lit(planted, bare, light, cast_shade(z, planted.owners != 0, light), settings, rng)
+    shade = cast_shade(z, planted.owners != 0, light)
+    lit = _lit(planted, bare, light=light, shade=shade, settings=settings, rng=rng)
     image = expose(lit, z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
     told = tell_truth(planted.caps, planted.seen, planted.owners)
     return Bed(image, told, planted.owners, source, form, shot.jpeg)
@@ -120,7 +121,7 @@ def _area(ground: Rectangle) -> float:
 
 
 def _lit(
-    planted: _Planted, bare: Bare, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
+    planted: _Planted, bare: Bare, *, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
 ) -> Image:
     """Linear light of the whole picture: soil first, then every layer over what lies under it."""
     rows, columns = bare.z.shape
@@ -128,7 +129,13 @@ def _lit(
     for box in strips(rows, columns):
         here = window(box)
         picture[here] = shine(
-            bare.colour[here], bare.normal[here], bare.z[here], box=box, light=light, shade=shade, glow=SOIL_GLOW
+            bare.colour[here],
+            bare.normal[here],
+            bare.z[here],
+            box=box,
+            light=light,
+            shade=shade,
+            glow=SOIL_GLOW,
         )
     brown = rng.uniform(*settings.skin.brown)
     for part in planted.seen:

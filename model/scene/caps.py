@@ -8,7 +8,7 @@ direction from the middle by a factor of its own, outline and surface alike.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,13 @@ from model.scene.growth import Floats, Stand, pairs_within
 from model.scene.settings import Growth
 from model.scene.view import View, project, turn
 
-Image = NDArray[np.float32]
+Image = NDArray[Any]
+"""float32 throughout; OpenCV's stubs do not say so."""
 Box = tuple[int, int, int, int]
 """left, top, right, bottom in whole pixels; right and bottom are outside."""
 
 ANGLES = 128
-"""Directions an outline is kept in: its polygon's vertices, less than 0.03 px off the smooth curve at 100 px."""
+"""Directions an outline is kept in: the polygon's vertices. At 100 px its edges sag by 0.03 px."""
 DIRECTIONS = np.arange(ANGLES) * (2 * np.pi / ANGLES)
 
 
@@ -84,14 +85,14 @@ def shape_caps(stand: Stand, view: View, growth: Growth, rng: np.random.Generato
 def polygon_of_cap(cap: Cap) -> list[float]:
     """The whole outline as one part, also where it is hidden or outside the image.
 
-    On a grid of 1/256 px: there sums with whole numbers are exact, so that it rasterises alike wherever it is moved.
+    On a grid of 1/256 px, where sums with whole numbers are exact, so that moving it changes no pixel.
     """
     points = cap.outline[:, None] * np.column_stack([np.cos(DIRECTIONS), np.sin(DIRECTIONS)])
     return part_of_points(np.rint((points + cap.centre[:2]) * 256) / 256)
 
 
 def surface_of_cap(cap: Cap, box: Box) -> Surface:
-    """The surface over the pixels of a box: each pixel's ray meets the upper spheroid or, below the rim, the lower."""
+    """The surface over a box: each pixel's ray meets the upper spheroid or, below the rim, the lower."""
     left, top, right, bottom = box
     dx = np.arange(left, right, dtype=np.float32)[None] + np.float32(0.5 - cap.centre[0])
     dy = np.arange(top, bottom, dtype=np.float32)[:, None] + np.float32(0.5 - cap.centre[1])
@@ -137,7 +138,7 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
 
 
 def _depth(along: Image, across: Image, sine: float, cosine: float, flat: float) -> Image:
-    """Where rays down the view meet a unit spheroid of half height ``flat``, tilted along: z of the near side."""
+    """z where rays down the view first meet a unit spheroid of half height ``flat``, tilted along."""
     a = sine**2 + cosine**2 / flat**2
     b = along * (sine * cosine * (1 / flat**2 - 1))
     c = along**2 * (cosine**2 + sine**2 / flat**2) + across**2 - 1

@@ -1,4 +1,4 @@
-"""Writes a set of beds: photos and one COCO file, by several processes, so that it can be stopped and continued.
+"""Writes a set of beds, photos and one COCO file, in several processes; it can be stopped and continued.
 
 While it runs, every finished bed has a part of its own under ``OUT/.parts``; the last act joins them.
 """
@@ -135,11 +135,13 @@ def _is_done(out: Path, index: int) -> bool:
 
 @contextmanager
 def _renderer(jobs: int) -> Iterator[Callable[[list[tuple[Path, Settings, int, int]]], Iterator[None]]]:
-    """Maps ``_render_one`` over tasks, in this process or in several; stops them all when the block is left."""
+    """Maps ``_render_one`` over tasks, in this process or in several, all stopped when the block is left."""
     if jobs == 1:
         yield lambda tasks: map(_render_one, tasks)
         return
-    with multiprocessing.get_context("spawn").Pool(jobs, initializer=cv2.setNumThreads, initargs=(1,)) as pool:
+    with multiprocessing.get_context("spawn").Pool(
+        jobs, initializer=cv2.setNumThreads, initargs=(1,)
+    ) as pool:
         yield lambda tasks: pool.imap_unordered(_render_one, tasks)
 
 

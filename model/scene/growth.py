@@ -46,7 +46,7 @@ class Pairs(NamedTuple):
 
 
 def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Generator) -> Stand:
-    """``count`` caps that come up on a rectangle of soil, settled so that side by side they hardly overlap."""
+    """``count`` caps come up on a rectangle of soil and settle until side by side they hardly overlap."""
     radius = _draw_diameters(growth, count, rng) / 2
     foot = _sprout(growth, radius, ground, rng)
     # In units of the radius: the large ones have grown over their neighbours.
@@ -131,4 +131,5 @@ def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:
 
 
 def _summed(index: NDArray[np.intp], vectors: Floats, count: int) -> Floats:
-    return np.column_stack([np.bincount(index, vectors[:, axis], count) for axis in range(vectors.shape[1])])
+    sums = [np.bincount(index, vectors[:, axis], count) for axis in range(vectors.shape[1])]
+    return np.column_stack(sums).astype(np.float64)

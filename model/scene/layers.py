@@ -126,7 +126,9 @@ def _layer_of_cap(index: int, cap: Cap, width: int, height: int) -> Layer | None
         return None
     moved = np.asarray(polygon).reshape(-1, 2) - around[:2]
     # Drawn in a frame of its own, so that the pixels outside the picture count too.
-    whole = mask_of_outline([moved.ravel().tolist()], height=around[3] - around[1], width=around[2] - around[0])
+    whole = mask_of_outline(
+        [moved.ravel().tolist()], height=around[3] - around[1], width=around[2] - around[0]
+    )
     left, top, right, bottom = box
     mask = whole[top - around[1] : bottom - around[1], left - around[0] : right - around[0]] != 0
     return Layer(index, True, box, mask, int(whole.sum()), cap.centre[2])

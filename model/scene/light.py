@@ -1,4 +1,4 @@
-"""The paper's three light sources (Figure 4), the shade things throw on each other, and what colour comes out."""
+"""The paper's three light sources (Figure 4), the shade they leave, and the light that comes back."""
 
 from __future__ import annotations
 
@@ -92,7 +92,9 @@ def cast_shade(z: Image, flesh: NDArray[np.bool_], light: Light) -> Shade:
     return Shade(tuple(full(c) for c in _ceilings(small, light)), hulls, _gain(rows, columns, light), around)
 
 
-def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float) -> Image:
+def shine(
+    colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float
+) -> Image:
     """Light that reaches the camera from a surface over the pixels of a box: (rows, columns, 3), linear.
 
     ``glow`` is how far light creeps under the surface and round its edges: 0 for soil, about 0.3 for flesh.
@@ -124,7 +126,9 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
 def _ceilings(z: Image, light: Light) -> list[Image]:
     """For the light's lower and upper part: the z under which a point lies in its shadow."""
     away = light.direction[:2] / max(float(np.hypot(*light.direction[:2])), 1e-6)
-    slopes = [np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)]
+    slopes = [
+        np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)
+    ]
     ceilings = [np.full_like(z, -1e6) for _ in slopes]
     highest = float(z.max() - z.min())
     furthest = min(highest / slopes[0], 320.0)

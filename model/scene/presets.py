@@ -37,7 +37,7 @@ PRESETS: dict[str, Settings] = {
         camera=Camera(pitch_deg=(0.0, 6.0), distance=1.3, vignette=(0.1, 0.3), tint=0.02, jpeg=(88, 95)),
     ),
 }
-"""``default`` is a mixture; ``paper`` is the data set of section 3; ``farm`` is like real photos of a farm."""
+"""``default`` is a mixture, ``paper`` the data set of section 3, ``farm`` like real photos of a farm."""
 
 
 def preset(name: str) -> Settings:
@@ -87,9 +87,7 @@ def _squeezed(settings: Settings) -> Settings:
     growth = settings.growth
     return replace(
         settings,
-        growth=replace(
-            growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9
-        ),
+        growth=replace(growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9),
     )
 
 

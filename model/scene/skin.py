@@ -87,7 +87,9 @@ def bend_normals(normal: Image, relief: Image) -> Image:
 
 def _specks(dress: Dress, x: Image, y: Image, *, density: float) -> Dress:
     dark, value, clumps = cv2.split(textures.look_up(textures.specks(), x, y))
-    return dress._replace(colour=_mixed(dress.colour, DIRT * 2, dark * (value < density * (1 + 0.6 * clumps))))
+    return dress._replace(
+        colour=_mixed(dress.colour, DIRT * 2, dark * (value < density * (1 + 0.6 * clumps)))
+    )
 
 
 def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -96,7 +98,9 @@ def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) 
     bend = textures.look_up(textures.cloud(), 2 * x, 2 * y)
     edge, value = cv2.split(textures.look_up(textures.plates(), x + 9 * bend, y - 9 * bend))
     flake = _step(0.2, 4.5, edge + 1.1 * textures.look_up(textures.grain(), 2 * x, 2 * y))
-    where = _step(-0.6, 1.2, textures.look_up(textures.cloud(), 0.25 * x, 0.25 * y) + 0.5 * rng.standard_normal())
+    where = _step(
+        -0.6, 1.2, textures.look_up(textures.cloud(), 0.25 * x, 0.25 * y) + 0.5 * rng.standard_normal()
+    )
     strength = flake * where * _step(0.15, 0.9, value) * rng.uniform(0.5, 0.95)
     tip = strength * _step(3.5, 0.5, edge)
     colour = _mixed(dress.colour, dress.colour * TAN * 1.6, 0.8 * strength)
@@ -106,7 +110,9 @@ def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) 
 def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     """(b) Brown blotches with soft edges, as bacteria leave them."""
     x, y = _turned(surface, rng, zoom=110 / cap.radius)
-    patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(textures.grain(), 0.2 * x, 0.2 * y)
+    patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(
+        textures.grain(), 0.2 * x, 0.2 * y
+    )
     least = rng.uniform(-0.1, 0.9)
     strength = _step(least, least + 1.3, patches) * rng.uniform(0.7, 1.0)
     ring = _step(least, least + 0.25, patches) * _step(least + 0.6, least + 0.25, patches)
@@ -139,7 +145,9 @@ def _cut(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> 
     along, across = _place_on(cap, surface, rng)
     waver = textures.look_up(textures.cloud(), along * 3, np.full_like(along, rng.uniform(0, 1000)))
     half = cap.radius * rng.uniform(0.25, 0.7)
-    wide = np.maximum(rng.uniform(0.02, 0.06) * cap.radius, 0.8) * np.sqrt(np.clip(1 - (along / half) ** 2, 0, 1))
+    wide = np.maximum(rng.uniform(0.02, 0.06) * cap.radius, 0.8) * np.sqrt(
+        np.clip(1 - (along / half) ** 2, 0, 1)
+    )
     off = np.abs(across + 0.04 * cap.radius * waver)
     gash = _step(wide + 0.6, wide - 0.6, off)
     lip = _step(2.6 * wide + 1.5, wide, off) * (wide > 0.3)

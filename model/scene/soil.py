@@ -1,4 +1,4 @@
-"""The casing soil: peat with clods, white mycelium in strands and clumps, pinheads, litter, the bed's edge."""
+"""The casing soil: clods of peat, mycelium in strands and clumps, pinheads, litter, the bed's edge."""
 
 from __future__ import annotations
 
@@ -48,7 +48,9 @@ def draw_sowing(soil: Soil, *, width: int, rng: np.random.Generator) -> Sowing:
     has_edge, side, depth = rng.random(3)
     away = width * (0.04 + 0.1 * depth)
     edge = ((away, -1.0) if side < 0.5 else (width - away, 1.0)) if has_edge < soil.edge else None
-    return Sowing(rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge)
+    return Sowing(
+        rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge
+    )
 
 
 def lay_soil(
@@ -117,7 +119,9 @@ def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, 
     region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
     clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
     web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
-    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * min(0.95, 8 * amount)
+    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * min(
+        0.95, 8 * amount
+    )
 
 
 def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
@@ -146,7 +150,9 @@ def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.
         window = height[top:bottom, left:right]
         if window.size:
             raised = np.zeros_like(window)
-            cv2.polylines(raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4)
+            cv2.polylines(
+                raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4
+            )
             window += raised
 
 

@@ -105,4 +105,8 @@ def test_the_photo_is_the_bed_as_a_jpeg(made: Path) -> None:
 
 
 def test_nothing_in_the_file_is_dated(made: Path) -> None:
-    assert set(json.loads((made / "instances.json").read_text())["info"]) == {"description", "seed", "settings"}
+    assert set(json.loads((made / "instances.json").read_text())["info"]) == {
+        "description",
+        "seed",
+        "settings",
+    }

@@ -72,7 +72,9 @@ def test_brown_caps_are_brown_and_white_ones_white() -> None:
 @pytest.mark.parametrize("mark", ["scales", "spots", "soil", "damage"])
 def test_marks_on_caps_show(mark: str) -> None:
     clean = {"scales": 0, "spots": 0, "soil": 0, "damage": 0}
-    assert contrast_on_caps(rendered({"skin": clean | {mark: 1}})) > contrast_on_caps(rendered({"skin": clean}))
+    assert contrast_on_caps(rendered({"skin": clean | {mark: 1}})) > contrast_on_caps(
+        rendered({"skin": clean})
+    )
 
 
 @pytest.mark.parametrize("setting", ["brightness", "mycelium", "pinheads"])

@@ -34,7 +34,7 @@ def test_a_setting_out_of_its_range_is_named(changes: dict[str, Any], word: str)
 
 
 def test_an_unknown_preset_is_named_beside_those_there_are() -> None:
-    with pytest.raises(SceneError, match="'plot'.*default, paper, farm"):
+    with pytest.raises(SceneError, match=r"'plot'.*default, paper, farm"):
         preset("plot")
 
 
