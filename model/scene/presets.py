@@ -70,7 +70,7 @@ def _clumped(settings: Settings) -> Settings:
     growth = settings.growth
     return replace(
         settings,
-        growth=replace(growth, cluster=growth.cluster * 2.2, spread=growth.spread * 0.8, squeeze=0.7),
+        growth=replace(growth, cluster=growth.cluster * 3, spread=growth.spread * 0.72, squeeze=0.7),
     )
 
 
@@ -87,12 +87,16 @@ def _squeezed(settings: Settings) -> Settings:
     growth = settings.growth
     return replace(
         settings,
-        growth=replace(growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9),
+        growth=replace(growth, cluster=growth.cluster * 2,
+            spread=growth.spread * 0.65,
+            squeeze=1.0,
+            height_spread=0.1,
+            irregularity=0.9),
     )
 
 
 def _tilted(settings: Settings) -> Settings:
-    return replace(settings, growth=replace(settings.growth, lean_deg=36.0, height=1.9, cluster=4.0))
+    return replace(settings, growth=replace(settings.growth, lean_deg=34.0, height=1.6, cluster=4.0))
 
 
 def _damaged(settings: Settings) -> Settings:

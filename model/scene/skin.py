@@ -67,8 +67,8 @@ def dress_stalk(surface: Surface, *, brown: float, rng: np.random.Generator) -> 
     x, y = (0.25 * surface.skin_x + ox).astype(np.float32), (surface.skin_y + oy).astype(np.float32)
     streak = textures.look_up(textures.cloud(), x, 4 * y)
     colour = WHITE * CREAM * (1 - 0.25 * brown) * (0.92 + 0.05 * streak)[..., None]
-    soiled = _step(0.15, 0.0, surface.rise + 0.05 * streak) * 0.12
-    dress = Dress(_mixed(colour, 8 * DIRT, soiled), 0.2 * streak)
+    soiled = _step(0.13, 0.03, surface.rise + 0.05 * streak)
+    dress = Dress(_mixed(colour, 1.3 * DIRT, soiled), 0.2 * streak)
     return _specks(dress, surface.skin_x, surface.skin_y, density=0.1)
 
 
