@@ -105,11 +105,15 @@ def _plant(
         caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
         layers = stack_layers(caps, stalks, width=view.width, height=view.height)
         owners = own_pixels(layers, width=view.width, height=view.height)
-        in_sight = np.unique(owners[owners > 0]) - 1
+        pixels = np.bincount(owners[owners > 0], minlength=count + 1)[1:]
+        in_sight = np.flatnonzero(pixels)
         if len(in_sight) >= wanted:
             break
         count = math.ceil(1.2 * count)
-    kept = set(rng.permutation(in_sight)[:wanted].tolist())
+    # What has been overgrown comes to nothing more often than what stands free.
+    area = {layer.mushroom: layer.area for layer in layers if layer.is_cap}
+    vigour = [pixels[cap] / area[cap] for cap in in_sight] + rng.random(len(in_sight))
+    kept = set(in_sight[np.argsort(-vigour)[:wanted]].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
     return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)

@@ -17,6 +17,8 @@ Rectangle = tuple[float, float, float, float]
 """left, top, right, bottom on the bed."""
 
 SETTLING_STEPS = 36
+PULL = 0.03
+"""Share of the way back to where its stalk would have it that a cap takes in a step."""
 TRIALS = 5
 """Places every cap may come up in, of which it takes the roomiest."""
 STEEPEST = 1.6
@@ -125,7 +127,7 @@ def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:
         share = (radius[second] ** 2 / (radius[first] ** 2 + radius[second] ** 2))[:, None]
         place -= _summed(first, push * share, len(place))
         place += _summed(second, push * (1 - share), len(place))
-        place += 0.06 * (wanted - place)
+        place += PULL * (wanted - place)
         place[:, 2] = np.maximum(place[:, 2], 0.25 * radius)
     return place
 

@@ -16,7 +16,7 @@ from model.scene import textures
 from model.scene.caps import Cap, Image, Surface
 from model.scene.settings import Skin
 
-WHITE = np.array([0.83, 0.825, 0.82], np.float32)
+WHITE = np.array([0.85, 0.825, 0.81], np.float32)
 BROWN = np.array([0.075, 0.165, 0.33], np.float32)
 CREAM = np.array([0.80, 0.93, 1.0], np.float32)
 """What the underside and the flesh keep of white."""
@@ -67,7 +67,7 @@ def dress_stalk(surface: Surface, *, brown: float, rng: np.random.Generator) -> 
     x, y = (0.25 * surface.skin_x + ox).astype(np.float32), (surface.skin_y + oy).astype(np.float32)
     streak = textures.look_up(textures.cloud(), x, 4 * y)
     colour = WHITE * CREAM * (1 - 0.25 * brown) * (0.92 + 0.05 * streak)[..., None]
-    soiled = _step(0.13, 0.03, surface.rise + 0.05 * streak)
+    soiled = 0.35 * _step(0.16, 0.04, surface.rise + 0.03 * textures.look_up(textures.cloud(), x, y))
     dress = Dress(_mixed(colour, 1.3 * DIRT, soiled), 0.2 * streak)
     return _specks(dress, surface.skin_x, surface.skin_y, density=0.1)
 

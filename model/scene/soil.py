@@ -18,7 +18,7 @@ from model.scene.view import Ground, View, project
 PEAT = np.array([0.0112, 0.0092, 0.0090], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)
 MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
-PINHEAD = np.array([0.62, 0.68, 0.70], np.float32)
+PINHEAD = np.array([0.76, 0.76, 0.75], np.float32)
 STRAW = np.array([0.06, 0.16, 0.28], np.float32)
 ROOT = np.array([0.008, 0.013, 0.02], np.float32)
 CRUMB_REACH = 70.0
