@@ -27,7 +27,9 @@ def forms_by_light() -> Picture:
     """One row a form, one column a light."""
     rows = []
     for row, form in enumerate(FORMS):
-        beds = [_bed(form, light, index=3 * row + column) for column, light in enumerate(get_args(LightSource))]
+        beds = [
+            _bed(form, light, index=3 * row + column) for column, light in enumerate(get_args(LightSource))
+        ]
         rows.append(np.hstack([_thumb(bed) for bed in beds]))
     return np.vstack(rows)
 

@@ -47,6 +47,7 @@ def test_a_centre_moves_exactly_with_its_cap(augmentation: Augmentation) -> None
     assert (moved.cx, moved.cy) == pytest.approx(move_points(np.array([[71.3, 64.8]]), motion)[0], abs=1e-9)
 
 
+@settings(max_examples=40, deadline=None)
 @given(augmentations)
 def test_a_moved_ellipse_runs_through_the_moved_points(augmentation: Augmentation) -> None:
     cap = Ellipse(71.3, 64.8, 22.0, 15.0, 30.0)
