@@ -57,7 +57,9 @@ def lay_soil(
     soil: Soil, sowing: Sowing, *, ground: Ground, view: View, feet: Floats, rng: np.random.Generator
 ) -> Bare:
     """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
-    place = _Wander(*rng.uniform((0, 0, 0), (2 * np.pi, textures.SIZE, textures.SIZE)).tolist())
+    # Rows of the picture stay nearly rows of the tiles, which memory likes; upside down is another bed too.
+    turn = rng.uniform(-0.2, 0.2) + np.pi * rng.integers(2)
+    place = _Wander(turn, *rng.uniform(0, textures.SIZE, 2).tolist())
     near = _nearness(feet, view)
     colour = np.empty((view.height, view.width, 3), np.float32)
     height = np.empty((view.height, view.width), np.float32)
@@ -115,7 +117,7 @@ def _nearness(feet: Floats, view: View) -> Image:
 
 def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, amount: float) -> Image:
     """Share of white: strands everywhere a little, felted to clumps in some regions."""
-    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * y, 2.3 * x))
+    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * x, 2.3 * y + 411))
     region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
     clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
     web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
