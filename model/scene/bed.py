@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Cap, Image, shape_caps
+from model.scene.caps import Cap, shape_caps
 from model.scene.growth import Rectangle, Stand, grow
 from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, strips, window
 from model.scene.lens import draw_shot, expose
 from model.scene.light import Light, Shade, cast_shade, draw_light, shine
+from model.scene.pixels import Image, threefold
 from model.scene.presets import with_form
 from model.scene.settings import LightSource, Settings
 from model.scene.skin import Dress, bend_normals, dress_cap, dress_stalk
@@ -112,7 +113,7 @@ def _plant(
         count = math.ceil(1.2 * count)
     # What has been overgrown comes to nothing more often than what stands free.
     area = {layer.mushroom: layer.area for layer in layers if layer.is_cap}
-    vigour = [pixels[cap] / area[cap] for cap in in_sight] + rng.random(len(in_sight))
+    vigour = [pixels[cap] / area[cap] for cap in in_sight.tolist()] + rng.random(len(in_sight))
     kept = set(in_sight[np.argsort(-vigour)[:wanted]].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
@@ -160,4 +161,4 @@ def _lay(picture: Image, part: Seen, dress: Dress, light: Light, shade: Shade) -
     normal = bend_normals(surface.normal, dress.relief.astype(np.float32))
     lit = shine(dress.colour, normal, surface.z, box=part.box, light=light, shade=shade, glow=FLESH_GLOW)
     here = window(part.box)
-    picture[here] += (lit - picture[here]) * surface.cover[..., None]
+    picture[here] += (lit - picture[here]) * threefold(surface.cover)

@@ -8,18 +8,17 @@ direction from the middle by a factor of its own, outline and surface alike.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from model.geometry import part_of_points
 from model.scene.growth import Floats, Stand, pairs_within
+from model.scene.pixels import Image, unit
 from model.scene.settings import Growth
 from model.scene.view import View, project, turn
 
-Image = NDArray[Any]
-"""float32 throughout; OpenCV's stubs do not say so."""
 Box = tuple[int, int, int, int]
 """left, top, right, bottom in whole pixels; right and bottom are outside."""
 
@@ -118,19 +117,18 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
 
     steep = up / (flat * flat)
     tilt = out * cosine + steep * sine
-    normal = np.dstack(
+    normal = cv2.merge(
         [
             tilt * toward_x - across * toward_y,
             tilt * toward_y + across * toward_x,
             np.maximum(steep * cosine - out * sine, 0.02),
         ]
     )
-    normal /= np.sqrt(np.einsum("rcx,rcx->rc", normal, normal))[..., None]
     size = np.float32(cap.radius)
     return Surface(
         cover=np.clip(reach - distance + 0.5, 0, 1).astype(np.float32),
         z=(cap.centre[2] + depth * size).astype(np.float32),
-        normal=normal.astype(np.float32),
+        normal=unit(normal),
         skin_x=(out * size).astype(np.float32),
         skin_y=(across * size).astype(np.float32),
         rise=up.astype(np.float32),

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from model.geometry import bounds_of_outline
 from model.raster import mask_of_outline
-from model.scene.caps import Box, Cap, Image, Surface, polygon_of_cap, surface_of_cap
+from model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
+from model.scene.pixels import Image
 from model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
 
 Owners = NDArray[np.int32]

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Image
 from model.scene.layers import strips, window
+from model.scene.pixels import Image, filtered, threefold
 from model.scene.settings import Camera
 
 LEVELS = 4096
@@ -58,11 +58,11 @@ def expose(
     photo = np.empty((rows, columns, 3), np.uint8)
     for box in strips(rows, columns):
         here = window(box)
-        fallen = seen[here] * (shot.exposure * falloff[here])[..., None] * shot.balance
+        fallen = filtered(seen[here] * threefold(shot.exposure * falloff[here]), shot.balance)
         # Grows with the root of the light.
         strength = np.sqrt(np.maximum(fallen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7))
         strength *= np.float32(camera.noise * dimness)
-        fallen += (2.0 * strength * grain[here])[..., None] + (0.6 * strength)[..., None] * blots[here]
+        fallen += threefold(2 * strength * grain[here]) + threefold(0.6 * strength) * blots[here]
         index = np.clip(fallen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
         photo[here] = np.take(_tone_curve(), index)
     return photo

@@ -8,7 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Box, Image
+from model.scene.caps import Box
+from model.scene.pixels import Image, tinted
 from model.scene.settings import LightSource
 
 HALF = 0.5
@@ -119,8 +120,13 @@ def shine(
     # Where caps shut out the sky their own light comes in its place, creamier with every bounce.
     fill = (1 - opened * (0.6 + 0.4 * normal[..., 2])) * shade.flesh[here] * shade.gain[here]
     deep = np.clip(closed * 1.6 - 0.35, 0, 1)
-    bounce = fill[..., None] * (FLESH + (FLESH * FLESH * 0.9 - FLESH) * deep[..., None])
-    return colour * (light.key * (direct[..., None] + 0.62 * up * bounce) + light.sky * sky[..., None])
+    bounce = 0.62 * up * fill
+    return colour * (
+        tinted(direct, light.key)
+        + tinted(bounce * (1 - deep), light.key * FLESH)
+        + tinted(bounce * deep, light.key * FLESH * FLESH * np.float32(0.9))
+        + tinted(sky, light.sky)
+    )
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:

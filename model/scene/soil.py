@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 
 from model.scene import textures
-from model.scene.caps import Image
 from model.scene.growth import Floats
 from model.scene.layers import strips, window
+from model.scene.pixels import Image, mixed, threefold, tinted
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
@@ -90,11 +90,11 @@ def _earth(soil: Soil, sowing: Sowing, x: Image, y: Image, near: Image) -> tuple
     """Colour and height of soil, mycelium and pinheads at places on the tiles."""
     relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
     earth = PEAT + (LOAM - PEAT) * np.float32(sowing.brightness)
-    colour = earth * np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4)[..., None]
+    colour = tinted(np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4), earth)
     height = 0.5 * soil.relief * relief + 0.5 * grain
 
     fluff = _mycelium(x, y, cloud, strands, near, amount=sowing.mycelium)
-    colour += (MYCELIUM * (0.8 + 0.15 * grain)[..., None] - colour) * fluff[..., None]
+    colour = mixed(colour, tinted(0.8 + 0.15 * grain, MYCELIUM), fluff)
     height += 3.0 * fluff
 
     rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
@@ -164,7 +164,7 @@ def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float
     beyond = (x - where) * side + 0.3 * height
     board = (beyond > 0) & (beyond < 12)
     colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
-    colour[beyond >= 12] *= 0.04
+    colour *= threefold(np.where(beyond >= 12, np.float32(0.04), np.float32(1)))
     height -= np.clip(beyond, 0, 60)
 
 
