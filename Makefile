@@ -3,7 +3,7 @@ PYTHON ?= python3
 PORT ?= 8080
 BIN := .venv/bin
 
-.PHONY: demo test bench lint clean
+.PHONY: demo test bench pictures lint clean
 
 demo: .venv/product
 	@$(BIN)/fairyring demo demo
@@ -17,6 +17,10 @@ bench: .venv/development
 	@$(BIN)/python -m app.bench.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
+
+pictures: .venv/development
+	@$(BIN)/python -m app.bench.chromium
+	$(BIN)/python -m docs.take_screenshots
 
 lint: .venv/development
 	$(BIN)/ruff check .

@@ -14,6 +14,7 @@ from storage.records import Cap
 MAX_PARTS = 500
 MAX_POINTS = 20_000
 MAX_NAME = 200
+MAX_ORDER = 1_000_000
 
 
 def check_cap(cap: Cap, *, width: int, height: int) -> Cap:
@@ -26,12 +27,14 @@ def check_cap(cap: Cap, *, width: int, height: int) -> Cap:
 
     Raises:
         GeometryError: not finite, too few points, far outside the image, without area.
-        StoreError: too large, or neither outline nor mark.
+        StoreError: too large, neither outline nor mark, or an overlap order beyond ``MAX_ORDER``.
     """
     if not cap.visible and cap.mark is None:
         raise StoreError("A cap needs a visible outline or a mark.")
     if len(cap.visible) > MAX_PARTS or sum(map(len, cap.visible)) > 2 * MAX_POINTS:
         raise StoreError(f"An outline has at most {MAX_PARTS} parts and {MAX_POINTS} points.")
+    if cap.order is not None and abs(cap.order) > MAX_ORDER:
+        raise StoreError(f"The overlap order lies between -{MAX_ORDER} and {MAX_ORDER}.")
     check_name(cap.category, "category")
     mark = None if cap.mark is None else check_mark(cap.mark, width=width, height=height)
     visible = check_outline(cap.visible, width=width, height=height) if cap.visible else []

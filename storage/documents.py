@@ -13,6 +13,7 @@ from storage.rows import (
     AnySelect,
     annotation_of,
     image_of,
+    is_number,
     prediction_of,
     require_image,
     run_of,
@@ -57,7 +58,8 @@ def load_predictions(connection: Connection, image_id: int) -> list[Prediction]:
 
 def load_prediction(connection: Connection, prediction_id: int) -> Prediction | None:
     """One prediction of any run."""
-    row = connection.execute(SELECT_PREDICTIONS.where(prediction.c.id == prediction_id)).first()
+    found = SELECT_PREDICTIONS.where(prediction.c.id == prediction_id)
+    row = connection.execute(found).first() if is_number(prediction_id) else None
     return None if row is None else prediction_of(row)
 
 

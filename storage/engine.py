@@ -68,9 +68,7 @@ def explained(what: str) -> Generator[None]:
         yield
     except exc.DBAPIError as error:
         reason = _reason(str(error.orig))
-        if reason is None and not isinstance(error, exc.OperationalError | exc.DatabaseError):
-            raise
-        if isinstance(error, exc.IntegrityError | exc.ProgrammingError | exc.DataError) and reason is None:
+        if reason is None and not isinstance(error, exc.OperationalError):
             raise
         raise StoreError(f"{what}: {reason or f'the database says “{error.orig}”'}.") from error
 

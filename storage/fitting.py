@@ -70,7 +70,7 @@ def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str
 
 def content_number(cap: Cap, *, photo: Photo) -> str:
     """The same outline and mark in the same photo always get the same number."""
-    content = msgspec.json.encode((photo.sha256, cap.visible, cap.mark))
+    content = msgspec.json.encode((photo.file_name, photo.sha256, cap.visible, cap.mark))
     return blake2b(content, digest_size=16).hexdigest()
 
 

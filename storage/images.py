@@ -73,16 +73,22 @@ class Place(Struct, frozen=True, kw_only=True):
 
 def list_images(connection: Connection, which: ImageFilter, *, offset: int = 0, limit: int = 50) -> ImagePage:
     """A page of the list and the length of the whole."""
-    page = _joined(image, comparison.c.cdr_mean, comparison.c.cdr_worst, comparison.c.worst)
-    page = page.where(_condition(which)).order_by(*_order(which)).offset(offset).limit(limit)
+    # The page is cut from bare numbers: SQLite would otherwise join and read every row it skips.
+    page = _ordered(which, _condition(which)).offset(offset).limit(limit).subquery()
+    latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
+    rows: AnySelect = (
+        select(image, comparison.c.cdr_mean, comparison.c.cdr_worst, comparison.c.worst)
+        .select_from(image.outerjoin(comparison, latest))
+        .where(image.c.id.in_(select(page.c.id)))
+        .order_by(*_order(which))
+    )
     total = connection.execute(select(func.count()).select_from(image).where(_condition(which)))
-    return ImagePage(rows=[_row(row) for row in connection.execute(page)], total=total.scalar_one())
+    return ImagePage(rows=[_row(row) for row in connection.execute(rows)], total=total.scalar_one())
 
 
 def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
     """The numbers of all images the filter finds, in its order."""
-    statement = _joined(image.c.id).where(_condition(which)).order_by(*_order(which))
-    return list(connection.execute(statement).scalars())
+    return list(connection.execute(_ordered(which, _condition(which))).scalars())
 
 
 def place_in_list(connection: Connection, which: ImageFilter, image_id: int) -> Place:
@@ -91,24 +97,17 @@ def place_in_list(connection: Connection, which: ImageFilter, image_id: int) -> 
     Raises:
         StoreError: the project has no such image.
     """
-    order = _order(which)
-    ranked = (
-        _joined(
-            image.c.id,
-            _condition(which).label("found"),
-            (func.row_number().over(order_by=order) - 1).label("position"),
-            func.lag(image.c.id).over(order_by=order).label("previous"),
-            func.lead(image.c.id).over(order_by=order).label("next"),
-            func.count().over().label("shown"),
-        )
-        .where(or_(_condition(which), image.c.id == image_id))
-        .subquery()
+    require_image(connection, image_id)
+    condition = _condition(which)
+    ids = list(connection.execute(_ordered(which, or_(condition, image.c.id == image_id))).scalars())
+    position = ids.index(image_id)
+    found = connection.execute(select(image.c.id).where(image.c.id == image_id, condition)).first()
+    return Place(
+        position=position,
+        count=len(ids) if found else len(ids) - 1,
+        previous=ids[position - 1] if position else None,
+        next=ids[position + 1] if position + 1 < len(ids) else None,
     )
-    row = connection.execute(select(ranked).where(ranked.c.id == image_id)).first()
-    if row is None:
-        raise StoreError(f"The project has no image number {image_id}; reload the list of images.")
-    count = row.shown if row.found else row.shown - 1
-    return Place(position=row.position, count=count, previous=row.previous, next=row.next)
 
 
 def get_image(connection: Connection, image_id: int) -> Image:
@@ -151,10 +150,13 @@ def sort_name(file_name: str) -> str:
     return re.sub(r"[0-9]+", lambda digits: digits.group().zfill(12), file_name.casefold())
 
 
-def _joined(*columns: Any) -> AnySelect:
-    """Images with the figures of their latest run."""
-    latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
-    return select(*columns).select_from(image.outerjoin(comparison, latest))
+def _ordered(which: ImageFilter, condition: ColumnElement[bool]) -> AnySelect:
+    """The numbers of images, in order."""
+    images = image
+    if which.sort == "cdr":
+        latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
+        images = image.outerjoin(comparison, latest)
+    return select(image.c.id).select_from(images).where(condition).order_by(*_order(which))
 
 
 def _condition(which: ImageFilter) -> ColumnElement[bool]:

@@ -20,6 +20,7 @@ from storage.rows import (
     SELECT_ANNOTATIONS,
     annotation_of,
     ensure_category,
+    is_number,
     load_categories,
     require_image,
     values_of_cap,
@@ -163,10 +164,8 @@ def _checked(connection: Connection, edit: Edit, categories: dict[str, int]) -> 
 
 def _require_prediction(connection: Connection, prediction_id: int, *, image_id: int) -> None:
     table = schema.prediction
-    found = connection.execute(
-        select(table.c.id).where(table.c.id == prediction_id, table.c.image == image_id)
-    ).first()
-    if found is None:
+    asked = select(table.c.id).where(table.c.id == prediction_id, table.c.image == image_id)
+    if not is_number(prediction_id) or connection.execute(asked).first() is None:
         raise StoreError("The prediction this cap started from does not belong to this image.")
 
 

@@ -99,13 +99,13 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
     Raises:
         StoreError: it is a project already, or the folder or database cannot be written.
     """
-    if (folder / SETTINGS).exists() or (folder / DATABASE).exists():
+    if (folder / SETTINGS).exists():
         raise StoreError(f"{folder} is a Fairyring project already; open it, or choose another folder.")
     try:
         (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         database = url or _sqlite_url(folder)
         upgrade(database, source=folder)
-        _enter_names(database, name=folder.resolve().name)
+        _enter_names(database, name=folder.resolve().name, shared=url is not None)
         (folder / SETTINGS).write_text(_settings(folder.resolve().name, url), encoding="utf-8")
     except OSError as error:
         raise StoreError(f"{folder} cannot be made a project: {error.strerror}.") from error
@@ -157,13 +157,18 @@ def _sqlite_url(folder: Path) -> str:
     return f"sqlite:///{(folder / DATABASE).resolve()}"
 
 
-def _enter_names(url: str, *, name: str) -> None:
+def _enter_names(url: str, *, name: str, shared: bool) -> None:
     engine = connect_engine(url, write=True)
-    with explained(url), engine.begin() as connection:
-        if connection.execute(select(schema.project.c.id)).first():
-            raise StoreError(f"The database of {name} holds a project already; give an empty one.")
-        connection.execute(insert(schema.project).values(id=uuid4().hex, name=name, made_at=now()))
-    engine.dispose()
+    try:
+        with explained(name), engine.begin() as connection:
+            named = connection.execute(select(schema.project.c.id)).first()
+            if named and shared:
+                raise StoreError(f"The database for {name} holds a project already; give an empty one.")
+            # A folder's own database that has a name has only lost its settings file: it is taken over.
+            if not named:
+                connection.execute(insert(schema.project).values(id=uuid4().hex, name=name, made_at=now()))
+    finally:
+        engine.dispose()
 
 
 def _settings(name: str, url: str | None) -> str:

@@ -124,13 +124,19 @@ def ensure_category(
     return categories[name]
 
 
+def is_number(value: int) -> bool:
+    """Whether this can be the number of a row at all; the database knows no larger ones."""
+    return 0 < value < 1 << 31
+
+
 def require_image(connection: Connection, image_id: int) -> AnyRow:
     """The row of an image.
 
     Raises:
         StoreError: the project has no such image.
     """
-    row = connection.execute(select(image).where(image.c.id == image_id)).first()
+    found = select(image).where(image.c.id == image_id)
+    row = connection.execute(found).first() if is_number(image_id) else None
     if row is None:
         raise StoreError(f"The project has no image number {image_id}; reload the list of images.")
     return row

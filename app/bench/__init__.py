@@ -1,1 +1,4 @@
-"""Benchmarks anybody can run again: ``fairyring bench``. The editor's needs playwright and a Chromium."""
+"""Benchmarks anybody can run again: ``fairyring bench``.
+
+Those of the editor and the store need playwright and a Chromium.
+"""

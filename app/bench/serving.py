@@ -7,6 +7,8 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.request import urlopen
@@ -68,3 +70,14 @@ class Server:
                 return answer.status == 200
         except OSError:
             return False
+
+
+@contextmanager
+def served(project: Path) -> Iterator[Server]:
+    """A server for as long as the ``with`` lasts."""
+    server = Server(project)
+    server.start()
+    try:
+        yield server
+    finally:
+        server.stop()

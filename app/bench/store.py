@@ -1,4 +1,4 @@
-"""How the store does in a project of 10 000 images and 500 000 caps.
+"""How the store, and the server over it, do in a project of 10 000 images and 500 000 caps.
 
 Each figure stands beside a plain reference of the same run: the same rows read, or written and synced,
 by bare ``sqlite3``; the same file parsed by ``json``.
@@ -7,16 +7,19 @@ by bare ``sqlite3``; the same file parsed by ``json``.
 from __future__ import annotations
 
 import json
-import math
 import sqlite3
 import tempfile
 import time
 import uuid
 from pathlib import Path
 
-import cv2
 import numpy as np
 
+from app.bench.leafing import leaf, measured_tab
+from app.bench.plain import synced_inserts
+from app.bench.projects import Bed, write_labels
+from app.bench.serving import served
+from app.bench.tab import chromium
 from app.bench.timing import Row, milliseconds, p95_row, row
 from app.editing import derive_edits
 from storage.documents import load_document
@@ -26,16 +29,12 @@ from storage.journal import commit
 from storage.project import DATABASE, Project, create_project
 from storage.records import Cap, Document, Edit
 
-WIDTH, HEIGHT = 320, 240
-CAPS = 50
-VERTICES = 20
-
 
 def run(*, quick: bool = False) -> list[Row]:
-    """The table: list, open, edit, import. Writes to a temporary folder (about 1.5 GB)."""
-    count = 200 if quick else 10_000
+    """The table: import, list, open, edit, leaf through. Writes to a temporary folder (about 1.5 GB)."""
+    count, leafed = (100, 3) if quick else (10_000, 100)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
-        labels = write_labels(Path(folder), images=count)
+        labels = write_labels(Path(folder) / "photos", _beds(count))
         with create_project(Path(folder) / "project") as project:
             rows = [_import(project, labels)]
             documents = _documents(project, count)
@@ -44,54 +43,19 @@ def run(*, quick: bool = False) -> list[Row]:
                 _open(project, [document.image.id for document in documents]),
                 _edit(project, documents, Path(folder)),
             ]
-        return rows
+        return rows + _leaf_through(Path(folder) / "project", leafed)
 
 
-def write_labels(folder: Path, *, images: int) -> Path:
-    """A COCO file beside ``images`` photos, each of 50 caps of 20 vertices; returns its path."""
-    photo = np.random.default_rng(0).integers(0, 255, (HEIGHT, WIDTH, 3), np.uint8)
-    encoded = cv2.imencode(".jpg", photo)[1].tobytes()
-    names = [f"bed_{i:05}.jpg" for i in range(images)]
-    for name in names:
-        (folder / name).write_bytes(encoded)
-    document = {
-        "images": [
-            {"id": i + 1, "file_name": name, "width": WIDTH, "height": HEIGHT} for i, name in enumerate(names)
-        ],
-        "categories": [{"id": 1, "name": "mushroom"}],
-        "annotations": [_annotation(i, cap) for i in range(images) for cap in range(CAPS)],
-    }
-    labels = folder / "labels.json"
-    labels.write_text(json.dumps(document))
-    return labels
-
-
-def _annotation(image: int, cap: int) -> dict:
-    x, y = 16 + 31 * (cap % 10), 20 + 45 * (cap // 10)
-    outline = []
-    for k in range(VERTICES):
-        angle = 2 * math.pi * k / VERTICES
-        radius = 14 + 2 * math.sin(3 * angle + image)
-        outline += [round(x + radius * math.cos(angle), 2), round(y + radius * math.sin(angle), 2)]
-    xs, ys = outline[0::2], outline[1::2]
-    return {
-        "id": image * CAPS + cap + 1,
-        "image_id": image + 1,
-        "category_id": 1,
-        "segmentation": [outline],
-        "bbox": [min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys)],
-        "area": 615.0,
-        "iscrowd": 0,
-    }
+def _beds(count: int) -> list[Bed]:
+    return [Bed(name=f"bed_{i:05}.jpg", width=320, height=240, caps=50, vertices=20) for i in range(count)]
 
 
 def _import(project: Project, labels: Path) -> Row:
     photos = sorted(labels.parent.glob("*.jpg"))
     import_paths(project, photos, link=True)
     start = time.perf_counter()
-    document = json.loads(labels.read_bytes())
+    count = len(json.loads(labels.read_bytes())["annotations"])
     parsed_in = time.perf_counter() - start
-    count = len(document["annotations"])
     start = time.perf_counter()
     report = import_paths(project, [labels])
     taken = time.perf_counter() - start
@@ -154,13 +118,20 @@ def _edit(project: Project, documents: list[Document], folder: Path) -> Row:
     def save(edit: Edit) -> None:
         commit(project, derive_edits(project, [edit]), user="bench")
 
-    reference = _plain_inserts(folder / "plain.db", payload=json.dumps(edits[0].cap and edits[0].cap.visible))
+    reference = synced_inserts(folder / "plain.db", payload=json.dumps(edits[0].cap and edits[0].cap.visible))
     return p95_row(
         "an edit worked out and on disk (reference: one synced INSERT)",
         milliseconds(save, edits),
         target=50,
         reference=reference,
     )
+
+
+def _leaf_through(project: Path, count: int) -> list[Row]:
+    with chromium() as browser, served(project) as server, measured_tab(browser, server) as tab:
+        waited = [leaf(tab) for _ in range(count)]
+        memory = row(f"server memory after {count} images", server.memory_mb(), unit="MB", target=500)
+    return [p95_row("next image, 320 × 240", waited, target=100), memory]
 
 
 def _moved(document: Document) -> Edit:
@@ -173,14 +144,3 @@ def _moved(document: Document) -> Edit:
         base=annotation.revision,
         cap=Cap(visible=visible),
     )
-
-
-def _plain_inserts(path: Path, *, payload: str) -> list[float]:
-    plain = sqlite3.connect(path, isolation_level=None)
-    plain.execute("PRAGMA journal_mode=WAL")
-    plain.execute("PRAGMA synchronous=FULL")
-    plain.execute("CREATE TABLE edit (id INTEGER PRIMARY KEY, payload TEXT)")
-    insert = "INSERT INTO edit (payload) VALUES (?)"
-    taken = milliseconds(lambda _: plain.execute(insert, (payload,)), range(100))
-    plain.close()
-    return taken

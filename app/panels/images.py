@@ -14,7 +14,7 @@ from storage.images import ImageFilter, ImagePage, ImageRow, list_images, place_
 
 PAGE = 10
 ANY = "any"
-STATUSES = {ANY: None, "not begun": "new", "annotated": "annotated", "approved": "approved"}
+STATUSES = {ANY: None, "to do": "new", "annotated": "annotated", "approved": "approved"}
 LIGHTS = {ANY: None, "top": "top", "side": "side", "dark": "dark"}
 FORMS = {ANY: None} | {letter: letter for letter in "abcdefgh"}
 ORDERS = {

@@ -89,6 +89,8 @@ def review_page(review: Review, number: int, current: int | None) -> Markup:
     """Figures, plots, and a page of the table."""
     if review.run is None:
         return _hint("No predictions yet; there is nothing to compare with.")
+    if not review.rows and review.stale:
+        return _hint(f"{review.stale} images have not been compared with the predictions yet.")
     if not review.rows:
         return _hint(
             "Correct some caps and mark their centres: then this compares them with the predictions."

@@ -11,7 +11,7 @@ from app.session import Session
 from app.workspace import Workspace
 from storage.records import Run
 
-STATUS_WORDS = {"new": "not begun", "annotated": "annotated", "approved": "approved"}
+STATUS_WORDS = {"new": "to do", "annotated": "annotated", "approved": "approved"}
 
 
 def build(_workspace: Workspace, session: Session) -> Redraw:

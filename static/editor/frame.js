@@ -45,6 +45,7 @@ export class Frame {
     const studio = new Studio();
     this.#photo = new Surface(host, {
       paint: (context, view, region) => photos.paint(context, view, region),
+      ready: () => this.ask(),
     });
     this.#caps = new Surface(host, {
       paint: (context, view, region) => paint(context, view, region, this.#picture()),

@@ -6,15 +6,19 @@
 
 import { axesOf, insideCap, measure, placedWhole, ringsOf } from "./caps.js";
 import { overlap } from "./view.js";
+import { isPrediction } from "./store.js";
 import { nearestEdges } from "./vertices.js";
 
 /** @typedef {import("./messages.js").Point} Point */
 /** @typedef {import("./store.js").Shape} Shape */
 /** @typedef {import("./view.js").Bounds} Bounds */
 
+/** A prediction this much smaller than an annotation around it is another cap, not the same one seen twice. */
+const ANOTHER_CAP = 1.6;
+
 /**
  * The smallest cap the point lies in, as a nested one could not be reached otherwise; else the cap whose
- * outline is nearest within `reach`.
+ * outline is nearest within `reach`. Where people have labelled a cap that is also predicted, theirs is meant.
  *
  * @param {Shape[]} shapes
  * @param {Point} point
@@ -24,7 +28,7 @@ import { nearestEdges } from "./vertices.js";
 export function pick(shapes, point, reach) {
   const inside = shapes.filter(({ cap }) => insideCap(cap, ...point));
   if (inside.length) {
-    return inside.reduce((a, b) => (measure(b.cap).area < measure(a.cap).area ? b : a));
+    return inside.reduce((a, b) => (rank(b) < rank(a) ? b : a));
   }
   let best = reach;
   let found = null;
@@ -35,6 +39,11 @@ export function pick(shapes, point, reach) {
     found = shape;
   }
   return found;
+}
+
+/** @type {(shape: Shape) => number} */
+function rank(shape) {
+  return measure(shape.cap).area * (isPrediction(shape) ? ANOTHER_CAP : 1);
 }
 
 /**

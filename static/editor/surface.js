@@ -1,7 +1,7 @@
 /**
  * A picture of the image that outlives the frame it was drawn in. It is drawn with a margin around the
  * viewport and then only moved (and, while zooming, stretched) by the compositor, until a fresh one is
- * ready to take its place.
+ * ready to take its place. While it is being zoomed and still fills the viewport, none is made.
  *
  * @module
  */
@@ -18,10 +18,12 @@ import { joined, overlap, toScreen, visibleBounds } from "./view.js";
  * @typedef {Object} Artist
  * @property {(context: CanvasRenderingContext2D, view: View, region: Bounds) => void} paint  at once
  * @property {(frame: Frame) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
- * @property {() => void} [ready]  an ordered picture has come
+ * @property {() => void} ready  a better picture has come, or can be made now: show it again
  */
 
 const MARGIN = 96;
+const REST_MS = 80;
+const MOST_STRETCH = 2;
 
 export class Surface {
   visible = true;
@@ -35,6 +37,9 @@ export class Surface {
   #stale = true;
   /** The order being carried out, and what has changed since. @type {{repairs: Bounds[]} | null} */
   #job = null;
+  /** What was shown last. @type {View | null} */
+  #shown = null;
+  #resting = 0;
   #artist;
 
   /**
@@ -80,9 +85,19 @@ export class Surface {
       this.discard();
     }
     const good = !this.#stale && this.#front.view !== null && covers(this.#front.view, view);
-    if (!good) this.#renew(view);
+    if (!good && !this.#mayRest(view)) this.#renew(view);
+    this.#shown = view;
     this.#place(view);
     return good || !this.#artist.order;
+  }
+
+  /** Whether a stretched picture will do until the view has come to rest. @type {(view: View) => boolean} */
+  #mayRest(view) {
+    clearTimeout(this.#resting);
+    const drawn = this.#front.view;
+    if (this.#stale || !drawn || view === this.#shown || !fills(drawn, view, this.#size)) return false;
+    this.#resting = window.setTimeout(() => this.#artist.ready(), REST_MS);
+    return true;
   }
 
   /** @type {(view: View) => void} */
@@ -109,7 +124,7 @@ export class Surface {
         context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
       });
       this.repair(job.repairs);
-      this.#artist.ready?.();
+      this.#artist.ready();
     }
     bitmap.close();
   }
@@ -198,6 +213,16 @@ function ownView(view) {
 function covers(drawn, wanted) {
   const close = Math.abs(drawn.x - wanted.x) <= MARGIN && Math.abs(drawn.y - wanted.y) <= MARGIN;
   return close && drawn.scale === wanted.scale;
+}
+
+/** Whether a sheet, stretched but not much, leaves nothing of the viewport bare. @type {(drawn: View, wanted: View, size: Size) => boolean} */
+function fills(drawn, wanted, { width, height }) {
+  const stretch = wanted.scale / drawn.scale;
+  if (stretch === 1 || stretch > MOST_STRETCH) return false;
+  const x = wanted.x - (drawn.x + MARGIN) * stretch;
+  const y = wanted.y - (drawn.y + MARGIN) * stretch;
+  const sheet = sheetSize({ width, height });
+  return x <= 0 && y <= 0 && x + sheet.width * stretch >= width && y + sheet.height * stretch >= height;
 }
 
 /** Overlapping rectangles as one. @type {(rects: Bounds[]) => Bounds[]} */

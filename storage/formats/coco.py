@@ -25,10 +25,10 @@ from typing import Any, TypeVar
 
 from model.geometry import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
 from model.raster import check_rle, outline_of_rle
-from storage.checking import MAX_NAME
+from storage.checking import MAX_NAME, MAX_ORDER
 from storage.errors import StoreError
 from storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
-from storage.formats.values import flag, number, numbers, read_json, size, text
+from storage.formats.values import base_name, flag, kept, number, numbers, read_json, size, text
 from storage.records import Cap, Mark, Outline, Shape
 
 T = TypeVar("T")
@@ -37,6 +37,7 @@ LIGHTS = ("top", "side", "dark")
 FORMS = tuple("abcdefgh")
 
 IMAGE_KEYS = {"id", "file_name", "width", "height", "light", "form", "split", "license"}
+CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {
     *("id", "image_id", "category_id", "segmentation", "bbox", "area", "iscrowd", "score", "uid"),
     *("ignore", "ignored", "doubt", "doubtful", "order", "center", "circle", "ellipse", "mark", "marked"),
@@ -86,6 +87,7 @@ class _Reader:
         self.document = document
         self.file = file
         self.problems: list[Problem] = []
+        self.names: set[str] = set()
         self.licenses = self._by_id("licenses")
         self.categories = {
             key: entry for key, entry in self._by_id("categories").items() if _category_name(entry)
@@ -98,11 +100,15 @@ class _Reader:
             file=self.file,
             images=[image_with(image, caps.get(key, [])) for key, image in images.items()],
             problems=self.problems,
-            categories={
-                _category_name(entry): _others(entry, {"id", "name", "keypoints", "skeleton"})
-                for entry in self.categories.values()
-            },
+            categories=self._unknown_keys_of_categories(),
         )
+
+    def _unknown_keys_of_categories(self) -> dict[str, dict[str, Any]]:
+        names = {_category_name(entry): entry for entry in self.categories.values()}
+        return {
+            name: self._try(f"category {name}", lambda entry=entry: _others(entry, CATEGORY_KEYS)) or {}
+            for name, entry in names.items()
+        }
 
     def _images(self) -> dict[Any, FoundImage]:
         images: dict[Any, FoundImage] = {}
@@ -115,15 +121,19 @@ class _Reader:
                 self._report(where, "Another image has this id; only the first is taken.")
                 continue
             images[entry["id"]] = image
+            self.names.add(image.file_name)
         return images
 
     def _image(self, entry: Any, where: str) -> FoundImage:
         _require_id(entry)
-        if not isinstance(entry.get("file_name"), str):
-            raise UnusableError("The file name is missing.")
+        name = base_name(entry.get("file_name"))
+        if name in self.names:
+            raise UnusableError(
+                f"Another image of this file is called {name} too, in another folder; rename one."
+            )
         extra = _others(entry, IMAGE_KEYS)
         if "license" in entry:
-            extra["license"] = self.licenses.get(_hashable(entry["license"]), entry["license"])
+            extra |= kept({"license": self.licenses.get(_hashable(entry["license"]), entry["license"])})
         light, form = entry.get("light"), entry.get("form")
         for key, value, allowed in (("light", light, LIGHTS), ("form", form, FORMS)):
             if value is not None and value not in allowed:
@@ -131,7 +141,7 @@ class _Reader:
                 self._report(where, f"The {key} is none of {', '.join(allowed)}; it was left out.")
         return FoundImage(
             where=where,
-            file_name=entry["file_name"],
+            file_name=name,
             width=size(entry.get("width"), "The width"),
             height=size(entry.get("height"), "The height"),
             light=light if light in LIGHTS else None,
@@ -210,7 +220,7 @@ def _found_cap(entry: dict[str, Any], where: str, category: str) -> FoundCap:
             mark=mark,
             ignored=any(flag(entry.get(key), f"“{key}”") for key in ("iscrowd", "ignore", "ignored")),
             doubtful=any(flag(entry.get(key), f"“{key}”") for key in ("doubt", "doubtful")),
-            order=order if type(order) is int and abs(order) < 1_000_000 else None,
+            order=order if type(order) is int and abs(order) <= MAX_ORDER else None,
             category=category,
         ),
         score=score,
@@ -278,7 +288,7 @@ def _hashable(value: Any) -> Any:
 
 
 def _others(entry: dict[str, Any], known: set[str]) -> dict[str, Any]:
-    return {key: value for key, value in entry.items() if key not in known}
+    return kept({key: value for key, value in entry.items() if key not in known})
 
 
 def _where(what: str, entry: Any, index: int) -> str:

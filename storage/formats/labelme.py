@@ -15,7 +15,7 @@ from model.geometry import Circle, Polygon
 from storage.checking import MAX_NAME
 from storage.errors import StoreError
 from storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
-from storage.formats.values import number, numbers, read_json, size
+from storage.formats.values import kept, number, numbers, read_json, size
 from storage.records import Cap, Mark
 
 SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
@@ -41,7 +41,7 @@ def parse_labelme(data: bytes, *, file: str) -> Found:
             file_name=document["imagePath"],
             width=size(document.get("imageWidth"), "imageWidth"),
             height=size(document.get("imageHeight"), "imageHeight"),
-            extra={key: value for key, value in document.items() if key not in IMAGE_KEYS},
+            extra=kept({key: value for key, value in document.items() if key not in IMAGE_KEYS}),
             caps=[_cap(group) for group in _grouped(shapes)],
         )
     except UnusableError as error:
@@ -62,7 +62,7 @@ class _Shape:
         self.label = label
         self.group = group if type(group) in (int, str) else None
         self.geometry = _geometry(entry)
-        self.extra = {key: value for key, value in entry.items() if key not in SHAPE_KEYS and value}
+        self.extra = kept({key: value for key, value in entry.items() if key not in SHAPE_KEYS and value})
 
 
 def _geometry(entry: dict[str, Any]) -> Circle | Polygon:

@@ -94,11 +94,24 @@ def base_name(value: Any) -> str:
         UnusableError: there is none.
     """
     if not isinstance(value, str):
-        raise UnusableError("The file name is not text.")
+        raise UnusableError("The file name is missing.")
     name = value.replace("\\", "/").rsplit("/", 1)[-1]
     if name in ("", ".", "..") or not name.isprintable() or len(name.encode(errors="replace")) > 200:
         raise UnusableError(f"{value[:60]!r} is no file name.")
     return name
+
+
+def kept(extra: dict[str, Any]) -> dict[str, Any]:
+    """Unknown keys, if they can be written again.
+
+    Raises:
+        UnusableError: they hold half characters or numbers beyond 64 bits.
+    """
+    try:
+        msgspec.json.encode(extra)
+    except (UnicodeError, OverflowError, RecursionError, msgspec.MsgspecError) as error:
+        raise UnusableError(f"Its other keys cannot be kept: {error}.") from error
+    return extra
 
 
 def text(value: Any) -> str | None:

@@ -30,7 +30,9 @@ def kept_cap(project: Path, uid: str) -> dict[str, Any] | None:
 
 def journal_of(project: Path, uid: str) -> list[dict[str, Any]]:
     """The edits of one annotation on disk, the first one first."""
-    return [dict(r) for r in _query(project, "SELECT * FROM edit WHERE annotation = ? ORDER BY revision", uid)]
+    return [
+        dict(r) for r in _query(project, "SELECT * FROM edit WHERE annotation = ? ORDER BY revision", uid)
+    ]
 
 
 def live_caps(project: Path) -> list[str]:

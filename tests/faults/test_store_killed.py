@@ -6,6 +6,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from itertools import product
 from pathlib import Path
 
 import cv2
@@ -106,9 +107,8 @@ def test_two_processes_write_at_once_and_both_get_through(folder):
     for writer in writers:
         writer.communicate(timeout=120)
         assert writer.returncode == 0
-    assert stored(folder) == {
-        f"{name} {n} {k}" for name in ("ann", "bob") for n in range(40) for k in range(3)
-    }
+    names = product(("ann", "bob"), range(25), range(3))
+    assert stored(folder) == {f"{name} {number} {k}" for name, number, k in names}
     with open_project(folder) as project, project.read() as connection:
         assert [entry.user for entry in history(connection, "bob 24 2")] == ["bob"]
         assert connection.exec_driver_sql("SELECT caps FROM image").scalar() == 150

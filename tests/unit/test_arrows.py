@@ -14,7 +14,7 @@ ALLOWED = {
     "storage": ("storage", "model.geometry", "model.raster", "model.photo", "model.errors"),
     "model": ("model",),
 }
-HEAVY = {"torch", "cv2", "numpy", "sqlalchemy", "alembic", "viser", "starlette", "uvicorn", "plotly", "PIL"}
+HEAVY = {"torch", "cv2", "numpy", "sqlalchemy", "alembic", "viser", "starlette", "uvicorn", "PIL"}
 
 
 def imports_of(file: Path) -> set[str]:

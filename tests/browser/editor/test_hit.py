@@ -48,6 +48,17 @@ def test_the_smallest_cap_under_the_pointer_is_picked_as_brute_force_says(call) 
     assert checked > 50
 
 
+def test_a_labelled_cap_is_picked_rather_than_its_prediction_but_a_nested_prediction_is_reached(call) -> None:
+    ring = [[0.0, 0.0, 40.0, 0.0, 40.0, 40.0, 0.0, 40.0]]
+    inner = [[10.0, 10.0, 20.0, 10.0, 20.0, 20.0, 10.0, 20.0]]
+    tight = [[1.0, 1.0, 39.0, 1.0, 39.0, 39.0, 1.0, 39.0]]
+    labelled = shape("labelled", ring)
+    same, nested = ({**shape(uid, part), "score": 0.9} for uid, part in (("same", tight), ("nested", inner)))
+    body = "return a.points.map((point) => m.pick(a.shapes, point, 3).uid)"
+    found = call("hit", body, {"shapes": [labelled, same, nested], "points": [[30, 30], [15, 15]]})
+    assert found == ["labelled", "nested"]
+
+
 def test_beside_every_cap_the_nearest_outline_within_reach_is_picked(call) -> None:
     left = shape("left", [[0, 0, 10, 0, 10, 10, 0, 10]])
     right = shape("right", [[20, 0, 30, 0, 30, 10, 20, 10]])

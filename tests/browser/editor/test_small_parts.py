@@ -121,3 +121,13 @@ def test_a_broken_connection_is_tried_again_with_the_token_in_the_page(call) -> 
     """
     )
     assert call("transport", body) == ["two", ["online", "offline", "online"]]
+
+
+def test_a_browser_without_webgl_is_told_so_in_words(browser, static_url) -> None:
+    context = browser.new_context()
+    page = context.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.goto(f"{static_url}/jsconfig.json")
+    page.evaluate("import('/editor/main.js')")
+    assert "needs WebGL" in page.get_by_role("alert").inner_text()
+    context.close()

@@ -16,9 +16,10 @@ WORLD = """
   function commitOne(edit) {
     if (seen.has(edit.id)) return seen.get(edit.id);
     const now = journal.get(edit.annotation);
-    if ((now?.revision ?? 0) !== edit.base) return {outcome: 'conflict', edit: edit.id, theirs: now, user: 'Bob'};
-    const annotation = {uid: edit.annotation, image: edit.image, revision: edit.base + 1, cap: edit.cap ?? now.cap,
-      deleted: edit.cap === null, whole: null, centre: null, extra: {}};
+    if ((now?.revision ?? 0) !== edit.base)
+      return {outcome: 'conflict', edit: edit.id, theirs: now, user: 'Bob'};
+    const annotation = {uid: edit.annotation, image: edit.image, revision: edit.base + 1,
+      cap: edit.cap ?? now.cap, deleted: edit.cap === null, whole: null, centre: null, extra: {}};
     journal.set(edit.annotation, annotation);
     seen.set(edit.id, {outcome: 'accepted', edit: edit.id, annotation});
     return seen.get(edit.id);

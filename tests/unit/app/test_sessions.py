@@ -30,6 +30,7 @@ from app.gateway.messages import (
 from model.geometry import Circle
 from storage.project import Project
 from storage.records import Accepted, Cap, Conflict, Edit, Refused
+from tests.unit.app.conftest import circle
 from tests.unit.app.tab import Panel, Tab, new_cap, open_socket, until
 
 
@@ -125,14 +126,14 @@ def test_an_edit_is_acknowledged_only_after_it_is_in_the_file(port: int, project
 
 
 def test_an_edit_brings_its_centre_and_whole_outline(port: int) -> None:
-    with Tab(port, image=1) as tab:
+    with Tab(port, image=2) as tab:
         tab.expect(Show)
-        marked = new_cap(1, uid="m", edit="e1", mark=Circle(cx=41.25, cy=38.5, r=20.0))
-        plain = new_cap(1, uid="p", edit="e2")
+        marked = new_cap(2, uid="m", edit="e1", mark=Circle(cx=41.25, cy=38.5, r=20.0))
+        plain = new_cap(2, uid="p", edit="e2", visible=circle(110, 70, 25))
         by_mark, by_fit = (outcome.annotation for outcome in tab.edit(marked, plain).outcomes)
         assert by_mark.centre == (41.25, 38.5)
         assert by_mark.whole == Circle(cx=41.25, cy=38.5, r=20.0)
-        assert by_fit.centre == pytest.approx((40.0, 40.0), abs=0.2)
+        assert by_fit.centre == pytest.approx((110.0, 70.0), abs=0.25)
 
 
 def test_the_same_edit_again_is_accepted_again_and_stored_once(port: int, project: Project) -> None:
@@ -202,14 +203,14 @@ def test_accepting_a_prediction_keeps_where_it_came_from(port: int) -> None:
 
 
 def refit_request(seq: int, x: float) -> Refit:
-    outline = [[x, 20.0, x + 40, 20.0, x + 40, 60.0, x, 60.0]]
-    return Refit(seq=seq, image=1, annotation="cap-1", cap=Cap(visible=outline))
+    """Of a round cap around (x, 40), on an image without other caps, where every method agrees."""
+    return Refit(seq=seq, image=2, annotation="cap-1", cap=Cap(visible=circle(x, 40, 20)))
 
 
 def test_a_refit_answers_with_the_centre_of_the_outline_it_was_asked_about(port: int) -> None:
-    with Tab(port, image=1) as tab:
+    with Tab(port, image=2) as tab:
         tab.expect(Show)
-        tab.send(refit_request(7, 30.0))
+        tab.send(refit_request(7, 50.0))
         fit = tab.expect(Fit)
         assert (fit.seq, fit.annotation) == (7, "cap-1")
         assert fit.centre == pytest.approx((50.0, 40.0), abs=0.2)
@@ -217,10 +218,10 @@ def test_a_refit_answers_with_the_centre_of_the_outline_it_was_asked_about(port:
 
 
 def test_of_many_refits_the_latest_wins_and_most_are_never_computed(port: int) -> None:
-    with Tab(port, image=1) as tab:
+    with Tab(port, image=2) as tab:
         tab.expect(Show)
         for seq in range(1, 101):
-            tab.send(refit_request(seq, 20.0 + seq / 10))
+            tab.send(refit_request(seq, 40.0 + seq / 10))
         answers = []
         while not answers or answers[-1].seq != 100:
             answers.append(tab.expect(Fit))
@@ -231,7 +232,7 @@ def test_of_many_refits_the_latest_wins_and_most_are_never_computed(port: int) -
 
 
 def test_a_refit_of_an_image_no_longer_shown_is_dropped(port: int) -> None:
-    with Tab(port, image=2) as tab:
+    with Tab(port, image=1) as tab:
         tab.expect(Show)
         tab.send(refit_request(1, 30.0))
         assert tab.nothing_more(Fit)

@@ -227,6 +227,18 @@ def test_importing_the_same_again_adds_nothing(beds, write_coco, square):
     assert rows_of(beds) == before
 
 
+def test_two_copies_of_a_photo_with_the_same_labels_keep_them_both(
+    project, write_photo, write_coco, square, tmp_path
+):
+    first = write_photo(tmp_path / "in" / "a.png")
+    second = first.with_name("b.png")
+    shutil.copy(first, second)
+    images = [{"id": n, "file_name": p.name} for n, p in enumerate((first, second), start=1)]
+    file = write_coco([{"segmentation": square, "image_id": n} for n in (1, 2)], images=images)
+    assert import_paths(project, [first, second, file]).annotations == 2
+    assert [len(annotations_of(project, image)) for image in (1, 2)] == [1, 1]
+
+
 def test_importing_again_does_not_bring_back_what_somebody_deleted_or_changed(beds, write_coco, square):
     file = write_coco([{"segmentation": square}, {"segmentation": TRIANGLE}])
     import_paths(beds, [file])

@@ -1,10 +1,11 @@
 import math
+import shutil
 import sqlite3
 from dataclasses import dataclass, field
 
 import msgspec
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pycocotools import mask
 from sqlalchemy import delete, exc, text, update
@@ -13,10 +14,9 @@ from model.geometry import Circle, Ellipse, Polygon
 from storage import schema
 from storage.documents import load_annotation, load_annotations, load_version
 from storage.errors import StoreError
-from storage.importing import import_paths
 from storage.journal import Derived, commit, history
 from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.project import create_project
+from storage.project import open_project
 from storage.records import Accepted, Cap, Conflict, Edit, Refused
 
 TRIANGLE = [[40.0, 40.0, 60.0, 40.0, 50.0, 60.0]]
@@ -207,7 +207,10 @@ def test_the_journal_tells_the_whole_story(beds, cap):
         ({"cap": Cap(visible=TRIANGLE * 501)}, "at most 500 parts"),
         ({"cap": Cap(visible=TRIANGLE, category="stone")}, "no category"),
         ({"cap": Cap(visible=TRIANGLE, prediction=7)}, "prediction"),
+        ({"cap": Cap(visible=TRIANGLE, prediction=10**30)}, "prediction"),
+        ({"cap": Cap(visible=TRIANGLE, order=10**30)}, "overlap order"),
         ({"cap": Cap(visible=TRIANGLE), "image": 99}, "no image number 99"),
+        ({"cap": Cap(visible=TRIANGLE), "image": 10**30}, "no image number 1000"),
         ({"cap": Cap(visible=TRIANGLE), "base": 1}, "no such annotation"),
         ({"cap": None}, "never made"),
         ({"cap": Cap(visible=TRIANGLE), "number": ""}, "number of an edit"),
@@ -290,14 +293,13 @@ edits = st.builds(
 )
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None)
 @given(sets=st.lists(st.lists(edits, max_size=4), max_size=8))
-def test_any_sequence_of_edits_ends_as_a_simple_model_says(sets, write_photo, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("model")
+def test_any_sequence_of_edits_ends_as_a_simple_model_says(sets, project_of_three, tmp_path_factory):
+    folder = shutil.copytree(project_of_three, tmp_path_factory.mktemp("model") / "beds")
     seen: dict[str, dict] = {}
     remembered = {name: Remembered() for name in "abc"}
-    with create_project(folder / "beds") as project:
-        import_paths(project, [write_photo(folder / "bed.png")])
+    with open_project(folder) as project:
         for change_set in sets:
             outcomes = commit(project, [edit(**sent) for sent in change_set], user="ann")
             for sent, outcome in zip(change_set, outcomes, strict=True):

@@ -44,6 +44,15 @@ def test_making_a_project_twice_is_refused(project):
         create_project(project.folder)
 
 
+def test_a_folder_whose_settings_were_lost_keeps_its_project(project):
+    project.write(insert_category("kept"))
+    identity = project.id
+    (project.folder / "fairyring.toml").unlink()
+    with create_project(project.folder) as again:
+        assert again.id == identity
+    assert category_names(project.folder / "project.db") == ["kept"]
+
+
 def test_a_folder_that_is_no_project_is_named_with_the_remedy(tmp_path):
     with pytest.raises(StoreError, match=r"not a Fairyring project; make one with: fairyring init"):
         open_project(tmp_path)

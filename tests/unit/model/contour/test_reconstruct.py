@@ -39,7 +39,7 @@ def test_a_cap_in_full_view_is_found_where_it_is_and_as_large_as_it_is(method: s
 def test_a_mask_symmetric_about_a_pixel_centre_has_its_centre_there(method: str):
     y, x = np.mgrid[0:41, 0:41]
     mask = (np.hypot(x - 20, y - 20) <= 15.2).astype(np.uint8)
-    (found,) = reconstruct_silhouettes([Silhouette(mask, 100, 50)], method=method)
+    (found,) = reconstruct_silhouettes([Silhouette(mask, 100, 50)], method=method, **SIZE)
     assert found.centre == pytest.approx((120.5, 70.5), abs=0.02)
 
 
@@ -47,7 +47,7 @@ def test_the_paper_recovers_a_cap_a_third_of_which_is_hidden_where_the_plain_ell
     cap, front = Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40)
     errors = {}
     for method in ("paper", "literal", "ellipse"):
-        (found,) = reconstruct_silhouettes([crescent(cap, front)], method=method)
+        (found,) = reconstruct_silhouettes([crescent(cap, front)], method=method, **SIZE)
         assert found.centre is not None
         errors[method] = math.dist(found.centre, (cap.cx, cap.cy))
     assert errors["paper"] < 0.6
@@ -57,7 +57,7 @@ def test_the_paper_recovers_a_cap_a_third_of_which_is_hidden_where_the_plain_ell
 
 def test_the_paper_says_why():
     (found,) = reconstruct_silhouettes(
-        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="paper"
+        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="paper", **SIZE
     )
     assert found.shape == "irregular"
     assert found.why.startswith("irregular: 2 corners; longest piece ")
@@ -66,7 +66,7 @@ def test_the_paper_says_why():
 
 def test_read_literally_no_concavity_makes_a_cap_irregular():
     (found,) = reconstruct_silhouettes(
-        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="literal"
+        [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="literal", **SIZE
     )
     assert found.shape == "regular"
 
@@ -119,7 +119,7 @@ def check(found: Reconstruction, cap: Silhouette) -> None:
 def test_any_mask_gives_finite_numbers_near_it(method: str, bits: list[bool]):
     mask = np.array(bits, np.uint8).reshape(7, 7)
     cap = Silhouette(mask, 30, 40)
-    (found,) = reconstruct_silhouettes([cap], method=method)
+    (found,) = reconstruct_silhouettes([cap], method=method, width=1100, height=1100)
     if not mask.any():
         assert found.refusal
     else:
@@ -130,6 +130,6 @@ def test_any_mask_gives_finite_numbers_near_it(method: str, bits: list[bool]):
 @pytest.mark.parametrize("size", [(1, 1), (1, 2), (2, 2), (1, 40), (3, 3), (40, 1), (1000, 1000), (600, 3)])
 def test_caps_from_one_pixel_to_a_thousand_get_an_answer(method: str, size: tuple[int, int]):
     cap = Silhouette(np.ones(size, np.uint8), 5, 5)
-    (found,) = reconstruct_silhouettes([cap], method=method)
+    (found,) = reconstruct_silhouettes([cap], method=method, width=1100, height=1100)
     check(found, cap)
     assert found.centre == pytest.approx((5 + size[1] / 2, 5 + size[0] / 2), abs=0.6)

@@ -1,0 +1,20 @@
+"""What the same disk does without Fairyring."""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+
+from app.bench.timing import milliseconds
+
+
+def synced_inserts(path: Path, *, payload: str) -> list[float]:
+    """Milliseconds that each of a hundred inserts takes bare SQLite, every one on disk before the next."""
+    plain = sqlite3.connect(path, isolation_level=None)
+    plain.execute("PRAGMA journal_mode=WAL")
+    plain.execute("PRAGMA synchronous=FULL")
+    plain.execute("CREATE TABLE edit (id INTEGER PRIMARY KEY, payload TEXT)")
+    insert = "INSERT INTO edit (payload) VALUES (?)"
+    taken = milliseconds(lambda _: plain.execute(insert, (payload,)), range(100))
+    plain.close()
+    return taken

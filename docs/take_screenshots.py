@@ -1,0 +1,90 @@
+"""Takes the pictures of the README and the guide from a fresh demo project: ``make pictures``."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from app.bench.serving import Server
+from app.bench.tab import Tab, centroid, chromium
+from app.demo import make_demo
+
+PICTURES = Path(__file__).parent / "pictures"
+WINDOW = {"width": 1440, "height": 860}
+
+
+def main() -> None:
+    """Serves a demo project of four beds and walks through it."""
+    PICTURES.mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder, chromium() as browser:
+        make_demo(Path(folder) / "demo", count=4, seed=1)
+        server = Server(Path(folder) / "demo")
+        server.start()
+        try:
+            tab = Tab(browser.new_page(viewport=WINDOW))
+            tab.enter(server.url, name="Ada")
+            _walk(tab)
+        finally:
+            server.stop()
+
+
+def _walk(tab: Tab) -> None:
+    _take(tab, "image")
+    tab.press("Shift+a")
+    tab.saved()
+    caps = [cap for cap in tab.state("shapes") if len(cap["cap"]["visible"]) == 1]
+    caps.sort(key=lambda cap: -len(cap["cap"]["visible"][0]))
+    middle = next(cap for cap in caps if _is_well_inside(cap))
+    place = centroid(middle["cap"]["visible"][0])
+    tab.select(place)
+    tab.press("z")
+    _take(tab, "selected")
+    _drag_a_vertex(tab, middle["cap"]["visible"][0])
+    _mark_some(tab, caps[:12])
+    tab.press("Escape", "v", "f")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("mean CDR").wait_for()
+    _take(tab, "review")
+    tab.press("?")
+    _take(tab, "keys")
+
+
+def _drag_a_vertex(tab: Tab, part: list[float]) -> None:
+    x, y = tab.screen((part[0], part[1]))
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + 26, y - 18, steps=6)
+    _take(tab, "dragging")
+    tab.page.mouse.up()
+    tab.saved()
+    tab.press("Control+z")
+
+
+def _is_well_inside(cap: dict) -> bool:
+    x, y = centroid(cap["cap"]["visible"][0])
+    return 300 < x < 980 and 200 < y < 520
+
+
+def _mark_some(tab: Tab, caps: list[dict]) -> None:
+    """Places circle marks a little off the centres that were found, as a hand would."""
+    tab.press("Escape", "f")
+    for number, cap in enumerate(caps):
+        whole = cap["whole"]
+        x, y = whole["cx"] + 0.6 * (number % 3 - 1), whole["cy"] + 0.5 * (number % 2)
+        radius = whole.get("r") or (whole["a"] + whole["b"]) / 2
+        if radius < x < 1280 - radius and radius < y < 720 - radius:
+            tab.press("v")
+            tab.select((x, y))
+            tab.press("c")
+            tab.drag((x, y), (x + radius, y))
+            tab.press("Escape", "Escape")
+            tab.saved()
+
+
+def _take(tab: Tab, name: str) -> None:
+    tab.page.wait_for_timeout(1500)
+    tab.page.screenshot(path=PICTURES / f"{name}.jpg", type="jpeg", quality=82)
+
+
+if __name__ == "__main__":
+    main()

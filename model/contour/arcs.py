@@ -1,0 +1,45 @@
+"""The pieces of a visible outline, each tagged with what it is a piece of."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.contour.result import Arc, ArcKind
+from model.contour.together import Together
+
+HOLLOW = 3.0
+"""A free point lies in a hollow if it is so many standard deviations inside the outline …"""
+LEAST_HOLLOW = 2.0
+"""… and no less than this, pixels."""
+
+_KINDS: tuple[ArcKind, ...] = ("visible", "hidden", "border", "concave")
+
+
+def kinds_of(together: Together) -> NDArray[np.int_]:
+    """(n, K), what each rim point is, as an index into visible, hidden, border, concave."""
+    contact = together.contact
+    hollow = together.fit.residual < -max(LEAST_HOLLOW, HOLLOW * together.evidence.noise)
+    kinds = np.zeros(contact.neighbour.shape, np.int64)
+    kinds[(contact.neighbour >= 0) & (together.evidence.seen < 0.5)] = 1
+    kinds[contact.border] = 2
+    kinds[(kinds == 0) & hollow] = 3
+    return kinds
+
+
+def arcs_of(together: Together, cap: int, kinds: NDArray[np.int_]) -> tuple[Arc, ...]:
+    """The arcs of one cap in order along its outline, the first starting where the kind changes."""
+    neighbour = np.where(kinds[cap] == 1, together.contact.neighbour[cap], -1)
+    key = (kinds[cap] + len(_KINDS) * (neighbour + 1)).tolist()
+    points = together.rims.points[cap]
+    starts = [at for at in range(len(key)) if key[at] != key[at - 1]]
+    if not starts:
+        return (_arc(key[0], points),)
+    twice = np.concatenate([points, points])
+    ends = [*starts[1:], starts[0] + len(key)]
+    return tuple(_arc(key[start], twice[start:end]) for start, end in zip(starts, ends, strict=True))
+
+
+def _arc(key: int, points: NDArray[np.float64]) -> Arc:
+    neighbour, kind = divmod(key, len(_KINDS))
+    return Arc(kind=_KINDS[kind], points=points, neighbour=neighbour - 1 if neighbour else None)

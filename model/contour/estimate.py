@@ -1,0 +1,90 @@
+"""Priors from checked labels: how round caps are, and how large against what is seen of them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from math import log
+from typing import Any
+
+import numpy as np
+from msgspec import structs
+
+from model.contour.coco import ContourError, silhouettes_of
+from model.contour.harmonic import Array
+from model.contour.priors import DEFAULT, Priors
+from model.contour.together import Together, fit_together
+
+LEAST_CAPS = 30
+IN_VIEW = 0.93
+"""A cap with so much of its rim in sight shows its own shape."""
+
+
+def estimate_priors(document: Any, *, source: str) -> Priors:
+    """Priors from a COCO document whose annotations hold visible masks and ``ellipse`` or ``circle``.
+
+    Roundness comes from the whole outlines where they are given, else from the caps in full view; the
+    harmonics from the caps in full view; size from the whole outlines against the circles around what is
+    visible. ``source`` is kept with the figures. Raises ContourError where there are too few caps.
+    """
+    if not isinstance(document, dict) or not isinstance(document.get("annotations"), list):
+        raise ContourError("This is not a COCO document: it needs lists of images and of annotations.")
+    groups: dict[Any, list[dict[str, Any]]] = defaultdict(list)
+    for annotation in document["annotations"]:
+        if not annotation.get("iscrowd") and not annotation.get("ignore"):
+            groups[annotation["image_id"]].append(annotation)
+    squares, stretches, sizes = [], [], []
+    for image in document.get("images", []):
+        width, height = image["width"], image["height"]
+        annotations = groups[image["id"]]
+        caps = silhouettes_of(annotations, width=width, height=height)
+        there = [index for index, cap in enumerate(caps) if cap.mask.any()]
+        if not there:
+            continue
+        together = fit_together([caps[index] for index in there], DEFAULT, width=width, height=height)
+        squares.append(_squares_in_view(together))
+        for place, index in enumerate(there):
+            axes = _axes(annotations[index])
+            if axes is not None:
+                stretches.append(log(axes[0] / axes[1]) / 2)
+                radius = log(axes[0] * axes[1]) / 2
+                sizes.append(radius - float(together.around.log_radius[place]))
+    none = np.zeros((0, 2 + 2 * len(DEFAULT.wobble)))
+    return _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
+
+
+def _squares_in_view(together: Together) -> Array:
+    """(m, H), expected squares of the shape parameters of the caps that can be seen all round."""
+    variance = np.diagonal(together.fit.covariance, axis1=1, axis2=2)[:, 3:]
+    # Clipped, for one mislabelled cap would otherwise widen the prior of all.
+    square = together.fit.outlines.shape.clip(-0.3, 0.3) ** 2
+    return (square + variance)[together.coverage >= IN_VIEW]
+
+
+def _axes(annotation: dict[str, Any]) -> tuple[float, float] | None:
+    """Longer and shorter semi-axis of the whole outline."""
+    if annotation.get("ellipse"):
+        return float(annotation["ellipse"][2]), float(annotation["ellipse"][3])
+    if annotation.get("circle"):
+        return float(annotation["circle"][2]), float(annotation["circle"][2])
+    return None
+
+
+def _priors(squares: Array, stretches: Array, sizes: Array, source: str) -> Priors:
+    if len(squares) < LEAST_CAPS:
+        raise ContourError(f"Priors need {LEAST_CAPS} caps in full view; the file has {len(squares)}.")
+    seen = np.sqrt(squares.mean(axis=0))
+    priors = structs.replace(
+        DEFAULT,
+        source=source,
+        stretch=float(np.hypot(*seen[:2]) / np.sqrt(2)),
+        wobble=tuple(float(np.hypot(*seen[at : at + 2]) / np.sqrt(2)) for at in range(2, len(seen), 2)),
+    )
+    if len(sizes) < LEAST_CAPS:
+        return priors
+    hidden = float(np.sqrt((stretches**2).mean() / 2)) / max(priors.stretch, 1e-3)
+    return structs.replace(
+        priors,
+        stretch_hidden=max(1.0, hidden),
+        size=float(max(np.std(sizes), 0.05)),
+        size_shift=float(np.median(sizes)),
+    )

@@ -1,0 +1,185 @@
+"""Robust maximum-a-posteriori outlines, all caps of an image in one go.
+
+An outline is an ellipse, r·expm([[u, v], [v, −u]]) around a centre, times the exponential of some harmonics
+of the polar angle from the third on. The harmonics soak up the shape that a real cap has beyond an
+ellipse, so that half a rim does not pass that off as a shift of the centre; on a whole rim they leave the
+centre alone.
+
+Legend: n caps, K rim points, H = 2 + 2·harmonics shape parameters, D = 3 + H parameters
+(Δx/r, Δy/r, log r, u, v, a₃, b₃, …).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.contour.priors import Priors
+
+Array = NDArray[np.floating]
+
+CUT = 3.0
+"""Residuals beyond so many standard deviations hardly count (Geman and McClure's weight)."""
+LARGEST_MOVE = 0.25
+"""Of the radius, in one step."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outlines:
+    """n whole outlines."""
+
+    centre: Array
+    """(n, 2)"""
+    log_radius: Array
+    """(n,)"""
+    shape: Array
+    """(n, H): u, v, a₃, b₃, …"""
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """What n caps are fitted to."""
+
+    points: Array
+    """(n, K, 2)"""
+    weight: Array
+    """(n, K), information of a point, 1/px²."""
+    seen: Array
+    """(n, K), how probable it is that a point lies on the cap's own rim; else the cap goes on beyond it."""
+    noise: float
+    """Standard deviation of a point, pixels."""
+    size: Array
+    """(n,), what log r is expected to be."""
+    stretch: float
+    """How far u and v are expected to be from 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """Outlines and how well they are known."""
+
+    outlines: Outlines
+    residual: Array
+    """(n, K), how far a point lies outside the outline, pixels."""
+    covariance: Array
+    """(n, D, D), of the parameters."""
+    doubt: Array
+    """(n, K), variance of the outline itself at a point, px²."""
+
+
+def fit_outlines(evidence: Evidence, start: Outlines, priors: Priors, *, softness: Sequence[float]) -> Fit:
+    """Damped Gauss–Newton on the posterior, one step for each of the m ≥ 1 figures in ``softness``.
+
+    ``softness`` multiplies the distance at which points stop to count: large figures first find the right
+    valley.
+    """
+    precision = _prior_precision(evidence, priors, parameters=3 + start.shape.shape[1])
+    for soft in softness[:-1]:
+        start = _advance(start, evidence, precision, soft).outlines
+    last = _advance(start, evidence, precision, softness[-1])
+    covariance: Array = np.linalg.inv(last.curvature)
+    doubt: Array = ((covariance @ last.slope) * last.slope).sum(axis=1)
+    return Fit(last.outlines, last.residual, covariance, doubt)
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    outlines: Outlines
+    residual: Array
+    """(n, K), after the step, to first order."""
+    slope: Array
+    """(n, D, K)"""
+    curvature: Array
+    """(n, D, D), of minus the log posterior."""
+
+
+def _advance(now: Outlines, evidence: Evidence, precision: Array, soft: float) -> _Step:
+    residual, slope = _linearised(evidence.points, now)
+    weighted = slope * _weights(residual, evidence, soft)[:, None]
+    curvature = weighted @ slope.transpose(0, 2, 1)
+    diagonal = np.arange(curvature.shape[1])
+    curvature[:, diagonal, diagonal] += precision
+    pull = (weighted @ residual[..., None])[..., 0] - precision * _off_prior(now, evidence)
+    moved, step = _moved(now, np.linalg.solve(curvature, pull[..., None])[..., 0])
+    return _Step(moved, residual - (step[:, None] @ slope)[:, 0], slope, curvature)
+
+
+def _linearised(points: Array, outlines: Outlines) -> tuple[Array, Array]:
+    """Residuals (n, K) and their slopes (n, D, K) by the parameters, both in pixels."""
+    away = points - outlines.centre[:, None]
+    distance = np.sqrt((away**2).sum(axis=-1)).clip(1e-6)
+    cosine, sine = away[..., 0] / distance, away[..., 1] / distance
+    radius = np.exp(outlines.log_radius)[:, None]
+    slope = np.empty((len(points), 3 + outlines.shape.shape[1], points.shape[1]))
+    level, turning = np.zeros_like(distance), np.zeros_like(distance)
+    c, s = cosine, sine
+    for index in range(0, outlines.shape.shape[1], 2):
+        order = index // 2 + 2
+        c, s = c * cosine - s * sine, s * cosine + c * sine
+        a, b = outlines.shape[:, index, None], outlines.shape[:, index + 1, None]
+        level += a * c + b * s
+        turning += order * (b * c - a * s)
+        slope[:, 3 + index], slope[:, 4 + index] = c, s
+    level += _second_order(outlines.shape, slope[:, 3], slope[:, 4])
+    # Moving the centre shortens the distance and turns the point's polar angle.
+    slope[:, 0] = (cosine + turning * sine) * (radius / distance)
+    slope[:, 1] = (sine - turning * cosine) * (radius / distance)
+    slope[:, 2] = 1
+    slope *= radius[:, None]
+    return (np.log(distance) - outlines.log_radius[:, None] - level) * radius, slope
+
+
+def _second_order(shape: Array, cosine: Array, sine: Array) -> Array:
+    """What the exact log polar radius of the ellipse has beyond u cos 2φ + v sin 2φ, (n, K)."""
+    u, v = shape[:, 0, None], shape[:, 1, None]
+    size = np.sqrt(u**2 + v**2 + 1e-16)
+    along = u * cosine + v * sine
+    return -0.5 * np.log(np.cosh(2 * size) - np.sinh(2 * size) * along / size) - along
+
+
+def _weights(residual: Array, evidence: Evidence, soft: float) -> Array:
+    """How much each point pulls, (n, K); hidden ones only from outside: the cap goes on beyond them."""
+    cut = CUT * soft * evidence.noise
+    square = (residual / cut) ** 2
+    on_rim = 1 / (1 + square) ** 2
+    beyond = np.where(residual > 0, 1 / (1 + square / 4), 0)
+    return evidence.weight * (evidence.seen * on_rim + (1 - evidence.seen) * beyond)
+
+
+def _prior_precision(evidence: Evidence, priors: Priors, *, parameters: int) -> Array:
+    """One over the prior variance of each parameter, (n, D)."""
+    precision = np.empty((len(evidence.points), parameters))
+    # Hardly any prior on where a cap lies: only so much that nothing is ever singular.
+    precision[:, :2] = 1e-2
+    precision[:, 2] = priors.size**-2
+    precision[:, 3:5] = evidence.stretch**-2
+    precision[:, 5:] = np.repeat(np.asarray(priors.wobble) ** -2.0, 2)
+    return precision
+
+
+def _off_prior(now: Outlines, evidence: Evidence) -> Array:
+    """How far the parameters are from what is expected of them, (n, D)."""
+    size = now.log_radius - evidence.size
+    return np.concatenate([np.zeros_like(now.centre), size[:, None], now.shape], axis=1)
+
+
+def _moved(now: Outlines, step: Array) -> tuple[Outlines, Array]:
+    """The outlines one step (n, D) on, and that step cut to as far as they may go at once."""
+    length = np.maximum(np.hypot(step[:, 0], step[:, 1]), 1e-12)
+    step = np.concatenate(
+        [
+            step[:, :2] * np.minimum(1, LARGEST_MOVE / length)[:, None],
+            step[:, 2:3].clip(-0.2, 0.2),
+            step[:, 3:].clip(-0.1, 0.1),
+        ],
+        axis=1,
+    )
+    moved = Outlines(
+        centre=now.centre + step[:, :2] * np.exp(now.log_radius)[:, None],
+        log_radius=now.log_radius + step[:, 2],
+        shape=now.shape + step[:, 3:],
+    )
+    return moved, step

@@ -1,0 +1,71 @@
+"""Visible rims of many caps as one array, so that an image is fitted at once.
+
+Legend: n caps, K = `BINS` points each, evenly along the contour. A point is the mean of its stretch of
+contour pixels, moved out to where the edge is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from model.contour.silhouette import Silhouette, contours_of
+from model.geometry import Points
+
+BINS = 48
+LEAST_PART = 0.1
+"""A part with a shorter contour than this share of the longest is a crumb, and is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rims:
+    """The visible outlines of n caps."""
+
+    points: NDArray[np.float64]
+    """(n, K, 2)"""
+    outward: NDArray[np.float64]
+    """(n, K, 2), unit normals."""
+    spacing: NDArray[np.float64]
+    """(n, K), the length of outline that each point stands for, pixels."""
+    pixels: NDArray[np.int_]
+    """(n,), how many contour pixels there were."""
+    area: NDArray[np.float64]
+    """(n,), inside the points, px²."""
+
+
+def rims_of(caps: Sequence[Silhouette]) -> Rims:
+    """The rims of n ≥ 1 silhouettes, each with something to see. Parts follow each other along the rim."""
+    contours = [_whole_contour(cap) for cap in caps]
+    pixels = np.array([len(contour) for contour in contours])
+    points = _even_means(np.concatenate(contours), pixels)
+    along = np.roll(points, -1, axis=1) - np.roll(points, 1, axis=1)
+    length = np.hypot(along[..., 0], along[..., 1])
+    outward = np.stack([along[..., 1], -along[..., 0]], axis=-1) / np.maximum(length, 1e-9)[..., None]
+    outward *= np.where(_area(points) >= 0, 1, -1)[:, None, None]
+    # The outermost pixel centres lie half a pixel's width inside the edge, measured along its normal.
+    points = points + outward * (np.abs(outward).max(axis=-1, keepdims=True) / 2)
+    return Rims(points, outward, length / 2, pixels, np.abs(_area(points)))
+
+
+def _whole_contour(cap: Silhouette) -> Points:
+    parts = contours_of(cap)
+    return np.concatenate([part for part in parts if len(part) >= LEAST_PART * len(parts[0])])
+
+
+def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,), shoelace areas of closed polygons (n, K, 2), positive where they run clockwise on the screen."""
+    x, y = np.moveaxis(points - points[:, :1], -1, 0)
+    return (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2
+
+
+def _even_means(contours: Points, pixels: NDArray[np.int_]) -> NDArray[np.float64]:
+    """(n, K, 2): the means of K even stretches of each of n contours that follow one another in one array."""
+    total = np.concatenate([np.zeros((1, 2)), np.cumsum(contours, axis=0)])
+    first = np.concatenate([[0], np.cumsum(pixels)[:-1]])
+    at = first[:, None] + pixels[:, None] * np.arange(BINS + 1) / BINS
+    whole = np.minimum(at.astype(np.int64), len(contours) - 1)
+    until = total[whole] + (at - whole)[..., None] * contours[whole]
+    return np.diff(until, axis=1) * (BINS / pixels[:, None, None])

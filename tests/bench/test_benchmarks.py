@@ -1,0 +1,57 @@
+"""The benchmarks run, and say something; how fast the machine is, is not judged here."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+
+import pytest
+
+from app.bench import editor, store
+from app.bench.timing import Row, p95_row, row
+
+HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", "rich", "playwright"}
+
+
+@pytest.mark.parametrize(
+    ("bench", "targets"),
+    [
+        (store, {"import": 5000, "a page of the list": 100, "open an image": 50, "server memory": 500}),
+        (editor, {"edit: release": 50, "next image, 1280 × 720": 100, "any image, 4000 × 3000": 400}),
+    ],
+)
+def test_a_quick_run_gives_every_figure_beside_its_target(bench, targets):
+    rows = bench.run(quick=True)
+
+    assert all(math.isfinite(row["value"]) and row["value"] > 0 for row in rows)
+    assert all(row["ratio"] > 0 for row in rows if row["reference"] is not None)
+    for figure, target in targets.items():
+        assert _named(rows, figure)["target"] == target
+
+
+def test_the_95th_percentile_stands_beside_that_of_the_reference():
+    found = p95_row("work", [float(i) for i in range(101)], target=50, reference=[10.0] * 5)
+
+    assert (found["value"], found["reference"], found["ratio"]) == (95.0, 10.0, 9.5)
+
+
+def test_a_figure_without_a_reference_has_no_ratio():
+    assert row("memory", 120.0, unit="MB", target=500)["ratio"] is None
+
+
+def test_help_imports_nothing_heavy():
+    script = (
+        "import sys; sys.argv = ['fairyring', '--help']\n"
+        "from app.cli import main\n"
+        "try: main()\n"
+        "except SystemExit: sys.stderr.write(' '.join({name.split('.')[0] for name in sys.modules}))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+
+    assert "Usage" in done.stdout
+    assert HEAVY & set(done.stderr.split()) == set()
+
+
+def _named(rows: list[Row], figure: str) -> Row:
+    return next(found for found in rows if found["figure"].startswith(figure))

@@ -1,0 +1,74 @@
+"""A reviewer looks at CDR image by image and opens the worst cap."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from app.bench.serving import Server
+from app.bench.tab import Tab
+from model.geometry import Circle
+from storage.documents import load_document
+from storage.images import ImageFilter, list_images
+from storage.journal import Derived, commit
+from storage.project import open_project
+from storage.records import Cap, Edit
+
+OFF_PX = 6.4
+
+
+@pytest.fixture
+def marked(project: Path) -> tuple[Path, str]:
+    """The first image holds three marks: two where the prediction's centre is, one 6.4 px to its right."""
+    with open_project(project) as opened:
+        with opened.read() as connection:
+            first = list_images(connection, ImageFilter(), limit=1).rows[0].image
+            document = load_document(connection, first.id)
+        sure = sorted(
+            (
+                p
+                for p in document.predictions
+                if p.centre and 100 < p.centre[0] < 1180 and 100 < p.centre[1] < 620
+            ),
+            key=lambda p: -p.score,
+        )[:3]
+        edits = []
+        for number, prediction in enumerate(sure):
+            assert prediction.centre is not None
+            x, y = prediction.centre
+            mark = Circle(x + (OFF_PX if number == 2 else 0.0), y, 20.0)
+            cap = Cap(visible=prediction.visible, mark=mark, prediction=prediction.id)
+            edit = Edit(id=f"e{number}", annotation=f"cap{number}", image=first.id, base=0, cap=cap)
+            edits.append(Derived(edit=edit, whole=mark, centre=(mark.cx, mark.cy)))
+        commit(opened, edits, user="Ada")
+    return project, first.file_name
+
+
+def test_the_review_lists_cdr_and_a_click_opens_the_image_at_its_worst_cap(
+    marked: tuple[Path, str], open_tab: Callable[..., Tab]
+) -> None:
+    project, file_name = marked
+    server = Server(project)
+    server.start()
+    try:
+        tab = open_tab(server)
+        tab.press("n")
+        tab.wait_for(f"window.fairyring.state.image.file_name !== {file_name!r}")
+        tab.page.get_by_role("tab", name="Review").click()
+        tab.page.get_by_role("button", name="Bring up to date").click()
+        row = tab.page.locator("tr[data-fairyring-select='cap2']")
+        row.wait_for()
+        # Eq. 10: 6.4 px of 1280 are 0.5 %, in one of three caps.
+        figures = [float(n) for n in re.findall(r"\d+\.\d+", row.inner_text().replace(file_name, ""))]
+        assert figures == pytest.approx([0.5 / 3, 0.5], abs=0.01)
+        row.click()
+        tab.wait_for("window.fairyring.state.selection[0] === 'cap2'")
+        assert tab.state("image")["file_name"] == file_name
+        x, y = tab.screen(tuple(tab.shape("cap2")["centre"]))  # type: ignore[index,arg-type]
+        assert 0 < x < 1100
+        assert 0 < y < 900
+    finally:
+        server.stop()

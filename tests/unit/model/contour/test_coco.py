@@ -1,0 +1,103 @@
+import copy
+import math
+
+import numpy as np
+import pytest
+
+from model.contour.coco import ContourError, contour_document
+from model.geometry import Circle, polygon_of_shape
+from model.raster import mask_of_outline, rle_of_mask
+
+DISC = [polygon_of_shape(Circle(cx=80.0, cy=60.0, r=25))]
+
+
+def uncompressed(mask: np.ndarray) -> dict:
+    flat = mask.T.ravel()
+    change = np.flatnonzero(np.diff(flat)) + 1
+    return {"size": list(mask.shape), "counts": np.diff([0, *change, len(flat)]).tolist()}
+
+
+def document() -> dict:
+    mask = mask_of_outline(DISC, height=120, width=160)
+    segmentations = [
+        DISC,
+        rle_of_mask(mask),
+        uncompressed(mask),
+        [[1.0, 1.0, 5.0]],
+        {"size": [3, 3], "counts": [9]},
+    ]
+    return {
+        "info": {"kept": True},
+        "images": [{"id": 7, "file_name": "a.png", "width": 160, "height": 120}],
+        "annotations": [
+            {"id": 10 + i, "image_id": 7, "segmentation": s, "mine": i} for i, s in enumerate(segmentations)
+        ],
+    }
+
+
+@pytest.mark.parametrize("method", ["map", "paper", "literal", "ellipse", "enclosing"])
+def test_polygons_and_both_kinds_of_rle_get_the_same_centre(method: str):
+    given = document()
+    given["annotations"] = given["annotations"][:1]
+    first = contour_document(given, method=method)["annotations"][0]
+    assert first["center"] == pytest.approx([80, 60], abs=0.25)
+    assert ("circle" in first) != ("ellipse" in first)
+    assert (first["center_sd"] is not None) == (method == "map")
+    assert first["shape"] == "regular"
+    for index in (1, 2):
+        other = document()
+        other["annotations"] = other["annotations"][index : index + 1]
+        assert contour_document(other, method=method)["annotations"][0]["center"] == first["center"]
+
+
+def test_annotations_keep_their_ids_keys_and_order_and_the_document_is_left_alone():
+    given = document()
+    before = copy.deepcopy(given)
+    found = contour_document(given, method="enclosing")
+    assert given == before
+    assert [(a["id"], a["mine"]) for a in found["annotations"]] == [(10 + i, i) for i in range(5)]
+    assert found["info"] == {"kept": True}
+
+
+def test_what_is_no_mask_is_refused_and_stays():
+    found = contour_document(document(), method="enclosing")["annotations"]
+    assert [a["center"] is None for a in found] == [False, False, False, True, True]
+    assert all(a["refusal"] for a in found[3:])
+    assert "not of the image's size" in found[4]["refusal"]
+
+
+def test_what_was_said_of_a_cap_before_is_replaced():
+    given = document()
+    given["annotations"] = [
+        given["annotations"][0] | {"circle": [1, 2, 3], "ellipse": [1, 2, 3, 3, 0], "refusal": "x"}
+    ]
+    (found,) = contour_document(given)["annotations"]
+    assert "circle" not in found
+    assert "refusal" not in found
+    assert found["ellipse"][:2] == found["center"]
+    assert found["ellipse"][2] >= found["ellipse"][3]
+    assert 0 <= found["ellipse"][4] < 180
+    assert all(math.isfinite(figure) for figure in (*found["ellipse"], *found["center_sd"]))
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        [],
+        {"images": []},
+        {"images": [{"id": 1, "width": 10}], "annotations": []},
+        {"images": [{"id": 1, "width": 10, "height": 10}], "annotations": [{"image_id": 2}]},
+    ],
+    ids=["a list", "no annotations", "an image without height", "an annotation without image"],
+)
+def test_what_is_no_coco_document_is_refused(given):
+    with pytest.raises(ContourError):
+        contour_document(given)
+
+
+def test_a_crowd_is_not_a_cap():
+    given = document()
+    given["annotations"] = [given["annotations"][1] | {"iscrowd": 1}]
+    (found,) = contour_document(given)["annotations"]
+    assert found["center"] is None
+    assert "crowd" in found["refusal"]
