@@ -9,6 +9,7 @@ import hashlib
 import multiprocessing
 import os
 import shutil
+import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -139,10 +140,14 @@ def _renderer(jobs: int) -> Iterator[Callable[[list[tuple[Path, Settings, int, i
     if jobs == 1:
         yield lambda tasks: map(_render_one, tasks)
         return
-    with multiprocessing.get_context("spawn").Pool(
-        jobs, initializer=cv2.setNumThreads, initargs=(1,)
-    ) as pool:
+    with multiprocessing.get_context("spawn").Pool(jobs, initializer=_begin_worker) as pool:
         yield lambda tasks: pool.imap_unordered(_render_one, tasks)
+
+
+def _begin_worker() -> None:
+    """One thread a process; Ctrl+C is the parent's to answer."""
+    cv2.setNumThreads(1)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _render_one(task: tuple[Path, Settings, int, int]) -> None:

@@ -87,11 +87,14 @@ def _squeezed(settings: Settings) -> Settings:
     growth = settings.growth
     return replace(
         settings,
-        growth=replace(growth, cluster=growth.cluster * 2,
+        growth=replace(
+            growth,
+            cluster=growth.cluster * 2,
             spread=growth.spread * 0.65,
             squeeze=1.0,
             height_spread=0.1,
-            irregularity=0.9),
+            irregularity=0.9,
+        ),
     )
 
 
