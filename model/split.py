@@ -17,7 +17,7 @@ Side = Literal["train", "val"]
 def split_by_source(sources: Sequence[str], *, share: float = 0.7, seed: int = 0) -> list[Side]:
     """The side of each item; ``sources`` names the photo each was made from.
 
-    ``share`` of the photos, rounded, goes to training: the paper's 7:3. The order of the items does not matter.
+    ``share`` of the photos, rounded, goes to training: the paper's 7:3. The items' order does not matter.
     """
     if not 0 <= share <= 1:
         raise ValueError("share must lie between 0 and 1")

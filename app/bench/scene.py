@@ -1,8 +1,8 @@
 """How fast beds are rendered, and how they measure against photos of real ones.
 
 The figures of the real photos are those of two overhead photos of *Agaricus bisporus*, labelled cap by cap;
-``real`` measures others: a folder with ``checked.json`` (COCO, with circle or ellipse and visible_fraction) and
-``images/``.
+``real`` measures others: a folder with ``checked.json`` (COCO, with circle or ellipse and
+visible_fraction) and ``images/``.
 """
 
 from __future__ import annotations
@@ -67,12 +67,16 @@ def run(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
     for name, (least, greatest) in ranges.items():
         value = float(np.mean([figures[name] for figures in rendered]))
         low, high = least - SLACK * abs(least), greatest + SLACK * abs(greatest)
-        rows.append(_row(name, value, f"{least:.3g} – {greatest:.3g}", f"{low:.3g} – {high:.3g}", low <= value <= high))
+        rows.append(
+            _row(
+                name, value, f"{least:.3g} – {greatest:.3g}", f"{low:.3g} – {high:.3g}", low <= value <= high
+            )
+        )
     return rows
 
 
 def measure(image: NDArray[np.uint8], *, diameters: list[float], fractions: list[float]) -> Figures:
-    """What a bed looks like in numbers. ``fractions`` are the visible ones of the caps of these ``diameters``, px."""
+    """A bed in numbers; its caps have these diameters (px), and these fractions of them are in sight."""
     size, sight = np.asarray(diameters), np.asarray(fractions)
     figures: Figures = {"caps": float(len(size))}
     for percent in (10, 50, 90):
@@ -86,7 +90,9 @@ def measure(image: NDArray[np.uint8], *, diameters: list[float], fractions: list
 
 def _looks(image: NDArray[np.uint8]) -> Figures:
     grey = image.mean(axis=2)
-    figures = {f"brightness {percent} %": float(np.percentile(grey, percent)) for percent in (10, 25, 50, 75, 90)}
+    figures = {
+        f"brightness {percent} %": float(np.percentile(grey, percent)) for percent in (10, 25, 50, 75, 90)
+    }
     bright = image[grey > np.percentile(grey, 75)].mean(axis=0)
     figures["blue over green, bright parts"] = float(bright[0] / bright[1])
     figures["red over green, bright parts"] = float(bright[2] / bright[1])
@@ -160,6 +166,8 @@ def _diameter(annotation: dict[str, Any]) -> float:
     return 2 * (annotation["ellipse"][2] * annotation["ellipse"][3]) ** 0.5
 
 
-def _row(figure: str, rendered: float, real: str | None, allowed: str | None, ok: bool | None) -> dict[str, Any]:
+def _row(
+    figure: str, rendered: float, real: str | None, allowed: str | None, ok: bool | None
+) -> dict[str, Any]:
     verdict = None if ok is None else "yes" if ok else "no"
     return {"figure": figure, "rendered": round(rendered, 3), "real": real, "allowed": allowed, "ok": verdict}

@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Cap, Image, shape_caps
+from model.scene.caps import Cap, shape_caps
 from model.scene.growth import Rectangle, Stand, grow
 from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, strips, window
 from model.scene.lens import draw_shot, expose
 from model.scene.light import Light, Shade, cast_shade, draw_light, shine
+from model.scene.pixels import Image, threefold
 from model.scene.presets import with_form
 from model.scene.settings import LightSource, Settings
 from model.scene.skin import Dress, bend_normals, dress_cap, dress_stalk
@@ -66,7 +67,8 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
     bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
     z = pile_up(planted.seen, planted.owners, bare.z)
-    lit = _lit(planted, bare, light, cast_shade(z, planted.owners != 0, light), settings, rng)
+    shade = cast_shade(z, planted.owners != 0, light)
+    lit = _lit(planted, bare, light=light, shade=shade, settings=settings, rng=rng)
     image = expose(lit, z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
     told = tell_truth(planted.caps, planted.seen, planted.owners)
     return Bed(image, told, planted.owners, source, form, shot.jpeg)
@@ -104,11 +106,15 @@ def _plant(
         caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
         layers = stack_layers(caps, stalks, width=view.width, height=view.height)
         owners = own_pixels(layers, width=view.width, height=view.height)
-        in_sight = np.unique(owners[owners > 0]) - 1
+        pixels = np.bincount(owners[owners > 0], minlength=count + 1)[1:]
+        in_sight = np.flatnonzero(pixels)
         if len(in_sight) >= wanted:
             break
         count = math.ceil(1.2 * count)
-    kept = set(rng.permutation(in_sight)[:wanted].tolist())
+    # What has been overgrown comes to nothing more often than what stands free.
+    area = {layer.mushroom: layer.area for layer in layers if layer.is_cap}
+    vigour = [pixels[cap] / area[cap] for cap in in_sight.tolist()] + rng.random(len(in_sight))
+    kept = set(in_sight[np.argsort(-vigour)[:wanted]].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
     return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
@@ -120,7 +126,7 @@ def _area(ground: Rectangle) -> float:
 
 
 def _lit(
-    planted: _Planted, bare: Bare, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
+    planted: _Planted, bare: Bare, *, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
 ) -> Image:
     """Linear light of the whole picture: soil first, then every layer over what lies under it."""
     rows, columns = bare.z.shape
@@ -128,7 +134,13 @@ def _lit(
     for box in strips(rows, columns):
         here = window(box)
         picture[here] = shine(
-            bare.colour[here], bare.normal[here], bare.z[here], box=box, light=light, shade=shade, glow=SOIL_GLOW
+            bare.colour[here],
+            bare.normal[here],
+            bare.z[here],
+            box=box,
+            light=light,
+            shade=shade,
+            glow=SOIL_GLOW,
         )
     brown = rng.uniform(*settings.skin.brown)
     for part in planted.seen:
@@ -149,4 +161,4 @@ def _lay(picture: Image, part: Seen, dress: Dress, light: Light, shade: Shade) -
     normal = bend_normals(surface.normal, dress.relief.astype(np.float32))
     lit = shine(dress.colour, normal, surface.z, box=part.box, light=light, shade=shade, glow=FLESH_GLOW)
     here = window(part.box)
-    picture[here] += (lit - picture[here]) * surface.cover[..., None]
+    picture[here] += (lit - picture[here]) * threefold(surface.cover)

@@ -10,20 +10,20 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from model.geometry import part_of_points
 from model.scene.growth import Floats, Stand, pairs_within
+from model.scene.pixels import Image, unit
 from model.scene.settings import Growth
 from model.scene.view import View, project, turn
 
-Image = NDArray[np.float32]
 Box = tuple[int, int, int, int]
 """left, top, right, bottom in whole pixels; right and bottom are outside."""
 
 ANGLES = 128
-"""Directions an outline is kept in: its polygon's vertices, less than 0.03 px off the smooth curve at 100 px."""
+"""Directions an outline is kept in: the polygon's vertices. At 100 px its edges sag by 0.03 px."""
 DIRECTIONS = np.arange(ANGLES) * (2 * np.pi / ANGLES)
 
 
@@ -82,13 +82,16 @@ def shape_caps(stand: Stand, view: View, growth: Growth, rng: np.random.Generato
 
 
 def polygon_of_cap(cap: Cap) -> list[float]:
-    """The whole outline as one part, also where it is hidden or outside the image."""
+    """The whole outline as one part, also where it is hidden or outside the image.
+
+    On a grid of 1/256 px, where sums with whole numbers are exact, so that moving it changes no pixel.
+    """
     points = cap.outline[:, None] * np.column_stack([np.cos(DIRECTIONS), np.sin(DIRECTIONS)])
-    return part_of_points(points + cap.centre[:2])
+    return part_of_points(np.rint((points + cap.centre[:2]) * 256) / 256)
 
 
 def surface_of_cap(cap: Cap, box: Box) -> Surface:
-    """The surface over the pixels of a box: each pixel's ray meets the upper spheroid or, below the rim, the lower."""
+    """The surface over a box: each pixel's ray meets the upper spheroid or, below the rim, the lower."""
     left, top, right, bottom = box
     dx = np.arange(left, right, dtype=np.float32)[None] + np.float32(0.5 - cap.centre[0])
     dy = np.arange(top, bottom, dtype=np.float32)[:, None] + np.float32(0.5 - cap.centre[1])
@@ -114,19 +117,18 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
 
     steep = up / (flat * flat)
     tilt = out * cosine + steep * sine
-    normal = np.dstack(
+    normal = cv2.merge(
         [
             tilt * toward_x - across * toward_y,
             tilt * toward_y + across * toward_x,
             np.maximum(steep * cosine - out * sine, 0.02),
         ]
     )
-    normal /= np.sqrt(np.einsum("rcx,rcx->rc", normal, normal))[..., None]
     size = np.float32(cap.radius)
     return Surface(
         cover=np.clip(reach - distance + 0.5, 0, 1).astype(np.float32),
         z=(cap.centre[2] + depth * size).astype(np.float32),
-        normal=normal.astype(np.float32),
+        normal=unit(normal),
         skin_x=(out * size).astype(np.float32),
         skin_y=(across * size).astype(np.float32),
         rise=up.astype(np.float32),
@@ -134,7 +136,7 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
 
 
 def _depth(along: Image, across: Image, sine: float, cosine: float, flat: float) -> Image:
-    """Where rays down the view meet a unit spheroid of half height ``flat``, tilted along: z of the near side."""
+    """z where rays down the view first meet a unit spheroid of half height ``flat``, tilted along."""
     a = sine**2 + cosine**2 / flat**2
     b = along * (sine * cosine * (1 / flat**2 - 1))
     c = along**2 * (cosine**2 + sine**2 / flat**2) + across**2 - 1

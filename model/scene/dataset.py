@@ -1,4 +1,4 @@
-"""Writes a set of beds: photos and one COCO file, by several processes, so that it can be stopped and continued.
+"""Writes a set of beds, photos and one COCO file, in several processes; it can be stopped and continued.
 
 While it runs, every finished bed has a part of its own under ``OUT/.parts``; the last act joins them.
 """
@@ -9,6 +9,7 @@ import hashlib
 import multiprocessing
 import os
 import shutil
+import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 
 import cv2
 import msgspec
+import msgspec.structs
 
 from model.geometry import area_of_outline, bounds_of_outline
 from model.scene.bed import Bed, render_bed
@@ -61,18 +63,16 @@ def write_beds(
 
 def annotation_of_cap(cap: BedCap) -> dict[str, Any]:
     """A cap in the contracts' keys, but for its id and its image's."""
-    visible = _rounded(cap.visible)
-    x, y, width, height = bounds_of_outline(visible)
-    ellipse = cap.ellipse
+    x, y, width, height = bounds_of_outline(cap.visible)
     return {
         "category_id": 1,
-        "segmentation": visible,
-        "area": round(area_of_outline(visible), DECIMALS),
-        "bbox": _rounded([[x, y, width, height]])[0],
+        "segmentation": cap.visible,
+        "area": round(area_of_outline(cap.visible), DECIMALS),
+        "bbox": _rounded(x, y, width, height),
         "iscrowd": 0,
-        "center": _rounded([list(cap.centre)])[0],
-        "ellipse": _rounded([[ellipse.cx, ellipse.cy, ellipse.a, ellipse.b, ellipse.theta_deg]])[0],
-        "amodal_segmentation": _rounded([cap.whole]),
+        "center": _rounded(*cap.centre),
+        "ellipse": _rounded(*msgspec.structs.astuple(cap.ellipse)),
+        "amodal_segmentation": [cap.whole],
         "visible_fraction": round(cap.visible_fraction, 4),
         "occlude_rate": round(1 - cap.visible_fraction, 4),
         "order": cap.order,
@@ -136,12 +136,18 @@ def _is_done(out: Path, index: int) -> bool:
 
 @contextmanager
 def _renderer(jobs: int) -> Iterator[Callable[[list[tuple[Path, Settings, int, int]]], Iterator[None]]]:
-    """Maps ``_render_one`` over tasks, in this process or in several; stops them all when the block is left."""
+    """Maps ``_render_one`` over tasks, in this process or in several, all stopped when the block is left."""
     if jobs == 1:
         yield lambda tasks: map(_render_one, tasks)
         return
-    with multiprocessing.get_context("spawn").Pool(jobs, initializer=cv2.setNumThreads, initargs=(1,)) as pool:
+    with multiprocessing.get_context("spawn").Pool(jobs, initializer=_begin_worker) as pool:
         yield lambda tasks: pool.imap_unordered(_render_one, tasks)
+
+
+def _begin_worker() -> None:
+    """One thread a process; Ctrl+C is the parent's to answer."""
+    cv2.setNumThreads(1)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _render_one(task: tuple[Path, Settings, int, int]) -> None:
@@ -188,5 +194,5 @@ def _join(out: Path, head: dict[str, Any], count: int) -> None:
     shutil.rmtree(out / PARTS)
 
 
-def _rounded(outline: list[list[float]]) -> list[list[float]]:
-    return [[round(value, DECIMALS) for value in part] for part in outline]
+def _rounded(*numbers: float) -> list[float]:
+    return [round(number, DECIMALS) for number in numbers]

@@ -17,8 +17,12 @@ Rectangle = tuple[float, float, float, float]
 """left, top, right, bottom on the bed."""
 
 SETTLING_STEPS = 36
+PULL = 0.03
+"""Share of the way back to where its stalk would have it that a cap takes in a step."""
 TRIALS = 5
 """Places every cap may come up in, of which it takes the roomiest."""
+STEEPEST = 1.6
+"""Slope of the most tilted cap: 58 degrees."""
 FLATNESS = 0.75
 """A cap is lower than it is wide, so two meet above each other sooner than their radii say."""
 
@@ -44,7 +48,7 @@ class Pairs(NamedTuple):
 
 
 def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Generator) -> Stand:
-    """``count`` caps that come up on a rectangle of soil, settled so that side by side they hardly overlap."""
+    """``count`` caps come up on a rectangle of soil and settle until side by side they hardly overlap."""
     radius = _draw_diameters(growth, count, rng) / 2
     foot = _sprout(growth, radius, ground, rng)
     # In units of the radius: the large ones have grown over their neighbours.
@@ -52,8 +56,10 @@ def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Genera
     lean = np.tan(np.radians(np.clip(growth.lean_deg * rng.standard_normal((count, 2)), -55, 55)))
     wanted = np.column_stack([foot + lean * rise[:, None], rise])
     place = _settle(wanted, radius, give=0.2 * growth.squeeze)
-    stalk = place - np.column_stack([foot, np.zeros(count)])
-    axis = np.column_stack([0.5 * lean + 0.5 * stalk[:, :2] / stalk[:, 2:], np.ones(count)])
+    # A cap faces half where it grew to and half where its neighbours left its stalk to point.
+    slope = 0.5 * lean + 0.5 * (place[:, :2] - foot) / place[:, 2:]
+    slope *= np.minimum(1, STEEPEST / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-9))
+    axis = np.column_stack([slope, np.ones(count)])
     return Stand(radius, foot, place, axis / np.linalg.norm(axis, axis=1, keepdims=True))
 
 
@@ -121,10 +127,11 @@ def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:
         share = (radius[second] ** 2 / (radius[first] ** 2 + radius[second] ** 2))[:, None]
         place -= _summed(first, push * share, len(place))
         place += _summed(second, push * (1 - share), len(place))
-        place += 0.06 * (wanted - place)
+        place += PULL * (wanted - place)
         place[:, 2] = np.maximum(place[:, 2], 0.25 * radius)
     return place
 
 
 def _summed(index: NDArray[np.intp], vectors: Floats, count: int) -> Floats:
-    return np.column_stack([np.bincount(index, vectors[:, axis], count) for axis in range(vectors.shape[1])])
+    sums = [np.bincount(index, vectors[:, axis], count) for axis in range(vectors.shape[1])]
+    return np.column_stack(sums).astype(np.float64)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from model.geometry import bounds_of_outline
 from model.raster import mask_of_outline
-from model.scene.caps import Box, Cap, Image, Surface, polygon_of_cap, surface_of_cap
+from model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
+from model.scene.pixels import Image
 from model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
 
 Owners = NDArray[np.int32]
@@ -72,12 +73,16 @@ def own_pixels(layers: Iterable[Layer], *, width: int, height: int) -> Owners:
 def look_at(layers: Iterable[Layer], owners: Owners, caps: list[Cap], stalks: list[Stalk]) -> list[Seen]:
     """The layers with a pixel in sight, from the lowest to the highest, with their surfaces there."""
     rows, columns = owners.shape
+    lowest = int(owners.min())
+    pixels = np.bincount((owners - lowest).ravel())
     seen = []
     for layer in layers:
+        if not lowest <= layer.owner < lowest + len(pixels) or pixels[layer.owner - lowest] == 0:
+            continue
         left, top, _, _ = layer.box
         x, y, wide, high = cv2.boundingRect((owners[window(layer.box)] == layer.owner).astype(np.uint8))
         box = _cut((left + x - 1, top + y - 1, left + x + wide + 1, top + y + high + 1), columns, rows)
-        if wide and box:
+        if box:
             surface = (
                 surface_of_cap(caps[layer.mushroom], box)
                 if layer.is_cap
@@ -122,7 +127,9 @@ def _layer_of_cap(index: int, cap: Cap, width: int, height: int) -> Layer | None
         return None
     moved = np.asarray(polygon).reshape(-1, 2) - around[:2]
     # Drawn in a frame of its own, so that the pixels outside the picture count too.
-    whole = mask_of_outline([moved.ravel().tolist()], height=around[3] - around[1], width=around[2] - around[0])
+    whole = mask_of_outline(
+        [moved.ravel().tolist()], height=around[3] - around[1], width=around[2] - around[0]
+    )
     left, top, right, bottom = box
     mask = whole[top - around[1] : bottom - around[1], left - around[0] : right - around[0]] != 0
     return Layer(index, True, box, mask, int(whole.sum()), cap.centre[2])

@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Image
 from model.scene.layers import strips, window
+from model.scene.pixels import Image, filtered, threefold
 from model.scene.settings import Camera
 
 LEVELS = 4096
@@ -53,15 +53,16 @@ def expose(
     """Linear light (rows, columns, 3) and view z (rows, columns) → an 8-bit BGR photo."""
     rows, columns = z.shape
     seen = _focused(light, z, camera=camera, shot=shot)
-    noise = _noise(rows, columns, rng)
+    grain, blots = _noise(rows, columns, rng)
     falloff = _vignette(rows, columns, shot.vignette)
     photo = np.empty((rows, columns, 3), np.uint8)
     for box in strips(rows, columns):
         here = window(box)
-        fallen = seen[here] * (shot.exposure * falloff[here])[..., None] * shot.balance
+        fallen = filtered(seen[here] * threefold(shot.exposure * falloff[here]), shot.balance)
         # Grows with the root of the light.
         strength = np.sqrt(np.maximum(fallen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7))
-        fallen += noise[here] * (camera.noise * dimness * strength)[..., None]
+        strength *= np.float32(camera.noise * dimness)
+        fallen += threefold(2 * strength * grain[here]) + threefold(0.6 * strength) * blots[here]
         index = np.clip(fallen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
         photo[here] = np.take(_tone_curve(), index)
     return photo
@@ -89,12 +90,11 @@ def _vignette(rows: int, columns: int, amount: float) -> Image:
     return 1 - amount * ((x * x + y * y) / 2) ** 1.3
 
 
-def _noise(rows: int, columns: int, rng: np.random.Generator) -> Image:
-    """(rows, columns, 3): mostly in brightness, a little in colour, smeared by demosaicing."""
-    grey = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
+def _noise(rows: int, columns: int, rng: np.random.Generator) -> tuple[Image, Image]:
+    """Noise in brightness (rows, columns) and in colour (rows, columns, 3), both smeared by demosaicing."""
+    grain = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
     coarse = rng.standard_normal((rows // 2, columns // 2, 3), np.float32)
-    colour = cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
-    return cv2.scaleAdd(colour, 0.3, cv2.merge([grey, grey, grey])) * np.float32(2)
+    return grain, cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
 
 
 @lru_cache(maxsize=1)

@@ -1,4 +1,4 @@
-"""The paper's three light sources (Figure 4), the shade things throw on each other, and what colour comes out."""
+"""The paper's three light sources (Figure 4), the shade they leave, and the light that comes back."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Box, Image
+from model.scene.caps import Box
+from model.scene.pixels import Image, tinted
 from model.scene.settings import LightSource
 
 HALF = 0.5
@@ -92,7 +93,9 @@ def cast_shade(z: Image, flesh: NDArray[np.bool_], light: Light) -> Shade:
     return Shade(tuple(full(c) for c in _ceilings(small, light)), hulls, _gain(rows, columns, light), around)
 
 
-def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float) -> Image:
+def shine(
+    colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float
+) -> Image:
     """Light that reaches the camera from a surface over the pixels of a box: (rows, columns, 3), linear.
 
     ``glow`` is how far light creeps under the surface and round its edges: 0 for soil, about 0.3 for flesh.
@@ -103,7 +106,7 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     facing = normal[..., 0] * x + normal[..., 1] * y + normal[..., 2] * up
     lit = np.clip((facing + glow) / (1 + glow), 0, None)
     # The softer the light, the further above the edge of a shadow its last ray passes.
-    reach = 2.0 + 30.0 * light.softness
+    reach = 2.0 + 70.0 * light.softness
     blocked = sum(np.clip((ceiling[here] - z) / reach + 0.5, 0, 1) for ceiling in shade.ceilings)
     nearer = 1 + 2 * np.clip(z, -50, 300) / light.height
     direct = lit * (1 - blocked / len(shade.ceilings)) * shade.gain[here] * nearer
@@ -117,14 +120,21 @@ def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, sha
     # Where caps shut out the sky their own light comes in its place, creamier with every bounce.
     fill = (1 - opened * (0.6 + 0.4 * normal[..., 2])) * shade.flesh[here] * shade.gain[here]
     deep = np.clip(closed * 1.6 - 0.35, 0, 1)
-    bounce = fill[..., None] * (FLESH + (FLESH * FLESH * 0.9 - FLESH) * deep[..., None])
-    return colour * (light.key * (direct[..., None] + 0.62 * up * bounce) + light.sky * sky[..., None])
+    bounce = 0.62 * up * fill
+    return colour * (
+        tinted(direct, light.key)
+        + tinted(bounce * (1 - deep), light.key * FLESH)
+        + tinted(bounce * deep, light.key * FLESH * FLESH * np.float32(0.9))
+        + tinted(sky, light.sky)
+    )
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:
     """For the light's lower and upper part: the z under which a point lies in its shadow."""
     away = light.direction[:2] / max(float(np.hypot(*light.direction[:2])), 1e-6)
-    slopes = [np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)]
+    slopes = [
+        np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)
+    ]
     ceilings = [np.full_like(z, -1e6) for _ in slopes]
     highest = float(z.max() - z.min())
     furthest = min(highest / slopes[0], 320.0)

@@ -16,13 +16,13 @@ PRESETS: dict[str, Settings] = {
         lights=("top",),
         growth=Growth(
             caps=(225, 265),
-            diameters=(13, 26, 44.5, 68, 107),
+            diameters=(13, 25, 42, 66, 107),
             cluster=9.0,
-            spread=0.98,
+            spread=0.85,
             height=1.0,
-            height_spread=0.27,
+            height_spread=0.25,
             lean_deg=7.0,
-            squeeze=0.3,
+            squeeze=0.2,
             irregularity=0.45,
         ),
         skin=Skin(brown=(0.0, 0.03), specks=3.0, scales=0.0, spots=0.0, soil=0.004, damage=0.004),
@@ -37,7 +37,7 @@ PRESETS: dict[str, Settings] = {
         camera=Camera(pitch_deg=(0.0, 6.0), distance=1.3, vignette=(0.1, 0.3), tint=0.02, jpeg=(88, 95)),
     ),
 }
-"""``default`` is a mixture; ``paper`` is the data set of section 3; ``farm`` is like real photos of a farm."""
+"""``default`` is a mixture, ``paper`` the data set of section 3, ``farm`` like real photos of a farm."""
 
 
 def preset(name: str) -> Settings:
@@ -70,7 +70,7 @@ def _clumped(settings: Settings) -> Settings:
     growth = settings.growth
     return replace(
         settings,
-        growth=replace(growth, cluster=growth.cluster * 2.2, spread=growth.spread * 0.8, squeeze=0.7),
+        growth=replace(growth, cluster=growth.cluster * 3, spread=growth.spread * 0.72, squeeze=0.7),
     )
 
 
@@ -88,13 +88,18 @@ def _squeezed(settings: Settings) -> Settings:
     return replace(
         settings,
         growth=replace(
-            growth, spread=growth.spread * 0.75, squeeze=1.0, height_spread=0.1, irregularity=0.9
+            growth,
+            cluster=growth.cluster * 2,
+            spread=growth.spread * 0.65,
+            squeeze=1.0,
+            height_spread=0.1,
+            irregularity=0.9,
         ),
     )
 
 
 def _tilted(settings: Settings) -> Settings:
-    return replace(settings, growth=replace(settings.growth, lean_deg=36.0, height=1.9, cluster=4.0))
+    return replace(settings, growth=replace(settings.growth, lean_deg=34.0, height=1.6, cluster=4.0))
 
 
 def _damaged(settings: Settings) -> Settings:

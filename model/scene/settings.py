@@ -35,13 +35,13 @@ class Growth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How many with at least one pixel in sight."""
     diameters: tuple[Positive, Positive, Positive, Positive, Positive] = (13, 27, 56, 104, 200)
     """The 0, 10, 50, 90 and 100 % quantiles."""
-    cluster: Annotated[float, Meta(ge=1)] = 6.0
+    cluster: Annotated[float, Meta(ge=1)] = 5.0
     """Mean number of caps that come up together."""
     spread: Annotated[float, Meta(ge=0.2, le=2)] = 1.0
     """Distance of a cap from the one it came up beside, in sums of their radii."""
     height: Annotated[float, Meta(ge=0.4, le=4)] = 1.0
     """Mean height of a cap's middle over the soil, in its own radii."""
-    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.25
+    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.16
     """Standard deviation of that height."""
     lean_deg: Annotated[float, Meta(ge=0, le=60)] = 8.0
     """Standard deviation of a stalk's lean, to either side."""

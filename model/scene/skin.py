@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from model.scene import textures
-from model.scene.caps import Cap, Image, Surface
+from model.scene.caps import Cap, Surface
+from model.scene.pixels import Image, filtered, mixed, tinted, unit
 from model.scene.settings import Skin
 
-WHITE = np.array([0.83, 0.825, 0.82], np.float32)
+WHITE = np.array([0.85, 0.825, 0.81], np.float32)
 BROWN = np.array([0.075, 0.165, 0.33], np.float32)
 CREAM = np.array([0.80, 0.93, 1.0], np.float32)
 """What the underside and the flesh keep of white."""
@@ -43,11 +43,11 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     top = np.clip(surface.rise / cap.dome, 0, 1)
 
     tone = 1 + 0.035 * rng.standard_normal()
-    brownness = np.clip(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)[..., None]
-    colour = WHITE * (1 - brownness) + BROWN * brownness
-    colour = colour * (tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores)[..., None]
-    colour = _mixed(colour, colour * CREAM, _step(0.16, -0.12, surface.rise) * 0.8)
-    dress = Dress(colour, 0.05 * pores)
+    brownness = np.clip(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)
+    grey = tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores
+    colour = tinted(grey * (1 - brownness), WHITE) + tinted(grey * brownness, BROWN)
+    colour = mixed(colour, filtered(colour, CREAM), _step(0.16, -0.12, surface.rise) * 0.8)
+    dress = Dress(colour, 0.05 * pores + 0.4 * blotch)
 
     marks = np.random.default_rng(seed)
     for chance, share, carry in zip(
@@ -66,50 +66,52 @@ def dress_stalk(surface: Surface, *, brown: float, rng: np.random.Generator) -> 
     ox, oy = rng.uniform(0, textures.SIZE, 2)
     x, y = (0.25 * surface.skin_x + ox).astype(np.float32), (surface.skin_y + oy).astype(np.float32)
     streak = textures.look_up(textures.cloud(), x, 4 * y)
-    colour = WHITE * CREAM * (1 - 0.25 * brown) * (0.92 + 0.05 * streak)[..., None]
-    soiled = _step(0.15, 0.0, surface.rise + 0.05 * streak) * 0.12
-    dress = Dress(_mixed(colour, 8 * DIRT, soiled), 0.2 * streak)
+    colour = tinted((1 - 0.25 * brown) * (0.92 + 0.05 * streak), WHITE * CREAM)
+    soiled = 0.35 * _step(0.16, 0.04, surface.rise + 0.03 * textures.look_up(textures.cloud(), x, y))
+    dress = Dress(mixed(colour, 1.3 * DIRT, soiled), 0.2 * streak)
     return _specks(dress, surface.skin_x, surface.skin_y, density=0.1)
 
 
 def bend_normals(normal: Image, relief: Image) -> Image:
     """The normals of a surface with the slope of a relief added, unit again."""
-    slope = np.dstack(
-        [
-            -0.5 * cv2.Sobel(relief, cv2.CV_32F, 1, 0, ksize=1),
-            -0.5 * cv2.Sobel(relief, cv2.CV_32F, 0, 1, ksize=1),
-            np.zeros_like(relief),
-        ]
-    )
-    bent = normal + slope
-    return bent / np.sqrt(np.einsum("rcx,rcx->rc", bent, bent))[..., None]
+    slope_x = cv2.Sobel(relief, cv2.CV_32F, 1, 0, ksize=1, scale=-0.5)
+    slope_y = cv2.Sobel(relief, cv2.CV_32F, 0, 1, ksize=1, scale=-0.5)
+    return unit(normal + cv2.merge([slope_x, slope_y, np.zeros_like(slope_x)]))
 
 
 def _specks(dress: Dress, x: Image, y: Image, *, density: float) -> Dress:
-    dark, value = cv2.split(textures.look_up(textures.specks(), x, y))
-    return dress._replace(colour=_mixed(dress.colour, DIRT * 2, dark * (value < density)))
+    dark, value, clumps = cv2.split(textures.look_up(textures.specks(), x, y))
+    return dress._replace(colour=mixed(dress.colour, DIRT * 2, dark * (value < density * (1 + 0.6 * clumps))))
 
 
 def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
-    """(a) The skin torn into brownish plates, most of all between top and rim."""
-    x, y = _turned(surface, rng, zoom=26 / (0.30 * cap.radius + 6))
-    edge, value = cv2.split(textures.look_up(textures.plates(), x, y))
-    ragged = edge + 0.8 * textures.look_up(textures.grain(), 2 * x, 2 * y)
-    plate = _step(1.0, 3.2, ragged) * (0.35 + 0.65 * value)
-    where = _step(-0.9, 0.5, textures.look_up(textures.cloud(), x, y) + 0.6 * rng.standard_normal())
-    strength = plate * where * rng.uniform(0.45, 0.9)
-    return Dress(_mixed(dress.colour, dress.colour * TAN * 1.7, strength), dress.relief + 2.2 * strength)
+    """(a) The skin torn into brownish flakes that lift at one edge, more in some places than in others."""
+    x, y = _turned(surface, rng, zoom=26 / (0.13 * cap.radius + 5))
+    bend = textures.look_up(textures.cloud(), 2 * x, 2 * y)
+    edge, value = cv2.split(textures.look_up(textures.plates(), x + 9 * bend, y - 9 * bend))
+    flake = _step(0.2, 4.5, edge + 1.1 * textures.look_up(textures.grain(), 2 * x, 2 * y))
+    where = _step(
+        -0.6, 1.2, textures.look_up(textures.cloud(), 0.25 * x, 0.25 * y) + 0.5 * rng.standard_normal()
+    )
+    strength = flake * where * _step(0.15, 0.9, value) * rng.uniform(0.5, 0.95)
+    tip = strength * _step(3.5, 0.5, edge)
+    colour = mixed(dress.colour, filtered(dress.colour, TAN * np.float32(1.6)), 0.8 * strength)
+    return Dress(
+        mixed(colour, filtered(dress.colour, TAN * np.float32(0.8)), 0.6 * tip), dress.relief + 1.6 * strength
+    )
 
 
 def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     """(b) Brown blotches with soft edges, as bacteria leave them."""
     x, y = _turned(surface, rng, zoom=110 / cap.radius)
-    patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(textures.grain(), 0.2 * x, 0.2 * y)
+    patches = textures.look_up(textures.cloud(), x, y) + 0.25 * textures.look_up(
+        textures.grain(), 0.2 * x, 0.2 * y
+    )
     least = rng.uniform(-0.1, 0.9)
     strength = _step(least, least + 1.3, patches) * rng.uniform(0.7, 1.0)
     ring = _step(least, least + 0.25, patches) * _step(least + 0.6, least + 0.25, patches)
-    spotted = _mixed(dress.colour, dress.colour * BLOTCH, strength)
-    return dress._replace(colour=_mixed(spotted, spotted * BLOTCH, 0.3 * ring))
+    spotted = mixed(dress.colour, filtered(dress.colour, BLOTCH), strength)
+    return dress._replace(colour=mixed(spotted, filtered(spotted, BLOTCH), 0.3 * ring))
 
 
 def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -120,10 +122,10 @@ def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) ->
     off = np.hypot(surface.skin_x - out * math.cos(angle), surface.skin_y - out * math.sin(angle))
     heap = np.clip(1.4 - off / (cap.radius * rng.uniform(0.15, 0.55)), -1.2, 1.2)
     strength = _step(1.5, 2.1, lumps + heap)
-    colour = DIRT * (1.8 + 0.9 * np.clip(lumps, -1.5, 2.5))[..., None]
+    colour = tinted(1.8 + 0.9 * np.clip(lumps, -1.5, 2.5), DIRT)
     smear = 0.45 * _step(0.6, 2.0, 0.5 * lumps + heap)
-    under = _mixed(dress.colour, 0.35 * dress.colour * CREAM, smear)
-    return Dress(_mixed(under, colour, strength), dress.relief + strength * (2.0 + lumps))
+    under = mixed(dress.colour, filtered(dress.colour, CREAM * np.float32(0.35)), smear)
+    return Dress(mixed(under, colour, strength), dress.relief + strength * (2.0 + lumps))
 
 
 def _damage(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -137,23 +139,25 @@ def _cut(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> 
     along, across = _place_on(cap, surface, rng)
     waver = textures.look_up(textures.cloud(), along * 3, np.full_like(along, rng.uniform(0, 1000)))
     half = cap.radius * rng.uniform(0.25, 0.7)
-    wide = np.maximum(rng.uniform(0.02, 0.06) * cap.radius, 0.8) * np.sqrt(np.clip(1 - (along / half) ** 2, 0, 1))
+    wide = np.maximum(rng.uniform(0.02, 0.06) * cap.radius, 0.8) * np.sqrt(
+        np.clip(1 - (along / half) ** 2, 0, 1)
+    )
     off = np.abs(across + 0.04 * cap.radius * waver)
     gash = _step(wide + 0.6, wide - 0.6, off)
     lip = _step(2.6 * wide + 1.5, wide, off) * (wide > 0.3)
-    colour = _mixed(_mixed(dress.colour, dress.colour * BLOTCH, 0.5 * lip), BRUISE * 0.5, gash)
+    colour = mixed(mixed(dress.colour, filtered(dress.colour, BLOTCH), 0.5 * lip), BRUISE * 0.5, gash)
     return Dress(colour, dress.relief + 1.5 * lip - 3.0 * gash)
 
 
 def _scrape(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     along, across = _place_on(cap, surface, rng)
-    ragged = 0.10 * textures.look_up(textures.cloud(), 4 * along, 4 * across)
-    size = cap.radius * rng.uniform(0.15, 0.38)
+    ragged = 0.22 * textures.look_up(textures.cloud(), 5 * along, 5 * across)
+    size = cap.radius * rng.uniform(0.12, 0.32)
     off = np.hypot(along / (size * rng.uniform(1.0, 2.2)), across / size) + ragged
-    bare, rim = _step(1.0, 0.9, off), _step(1.15, 1.0, off) * _step(0.82, 0.95, off)
+    bare, rim = _step(1.05, 0.9, off), _step(1.2, 1.0, off) * _step(0.75, 1.0, off)
     fibres = 0.9 + 0.08 * textures.look_up(textures.grain(), 0.4 * along, 1.5 * across)
-    flesh = _mixed(dress.colour, (WHITE * CREAM * CREAM) * fibres[..., None] * rng.uniform(0.5, 0.85), bare)
-    return Dress(_mixed(flesh, BRUISE, 0.7 * rim), dress.relief - 0.06 * cap.radius * bare)
+    flesh = mixed(dress.colour, tinted(fibres * rng.uniform(0.5, 0.85), WHITE * CREAM * CREAM), bare)
+    return Dress(mixed(flesh, BRUISE, 0.35 * rim), dress.relief - 0.06 * cap.radius * bare)
 
 
 def _bruise(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -162,7 +166,7 @@ def _bruise(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) 
     size = cap.radius * rng.uniform(0.2, 0.5)
     off = np.hypot(along / (size * rng.uniform(1.0, 1.8)), across / size) + cloudy
     return Dress(
-        _mixed(dress.colour, dress.colour * BLOTCH, rng.uniform(0.5, 1.0) * _step(1.1, 0.4, off)),
+        mixed(dress.colour, filtered(dress.colour, BLOTCH), rng.uniform(0.5, 1.0) * _step(1.1, 0.4, off)),
         dress.relief - 0.03 * cap.radius * _step(1.0, 0.0, off),
     )
 
@@ -184,10 +188,6 @@ def _turned(surface: Surface, rng: np.random.Generator, *, zoom: float = 1.0) ->
     x = surface.skin_x * cosine - surface.skin_y * sine + ox
     y = surface.skin_x * sine + surface.skin_y * cosine + oy
     return x.astype(np.float32), y.astype(np.float32)
-
-
-def _mixed(under: Image, over: NDArray[np.floating], share: Image) -> Image:
-    return under + (over - under) * share[..., None].astype(np.float32)
 
 
 def _step(start: float | Image, end: float | Image, values: Image) -> Image:

@@ -1,4 +1,4 @@
-"""The casing soil: peat with clods, white mycelium in strands and clumps, pinheads, litter, the bed's edge."""
+"""The casing soil: clods of peat, mycelium in strands and clumps, pinheads, litter, the bed's edge."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import cv2
 import numpy as np
 
 from model.scene import textures
-from model.scene.caps import Image
 from model.scene.growth import Floats
 from model.scene.layers import strips, window
+from model.scene.pixels import Image, mixed, threefold, tinted
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
 PEAT = np.array([0.0112, 0.0092, 0.0090], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)
 MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
-PINHEAD = np.array([0.62, 0.68, 0.70], np.float32)
+PINHEAD = np.array([0.76, 0.76, 0.75], np.float32)
 STRAW = np.array([0.06, 0.16, 0.28], np.float32)
 ROOT = np.array([0.008, 0.013, 0.02], np.float32)
 CRUMB_REACH = 70.0
@@ -48,14 +48,18 @@ def draw_sowing(soil: Soil, *, width: int, rng: np.random.Generator) -> Sowing:
     has_edge, side, depth = rng.random(3)
     away = width * (0.04 + 0.1 * depth)
     edge = ((away, -1.0) if side < 0.5 else (width - away, 1.0)) if has_edge < soil.edge else None
-    return Sowing(rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge)
+    return Sowing(
+        rng.uniform(*soil.brightness), rng.uniform(*soil.mycelium), rng.uniform(*soil.pinheads), edge
+    )
 
 
 def lay_soil(
     soil: Soil, sowing: Sowing, *, ground: Ground, view: View, feet: Floats, rng: np.random.Generator
 ) -> Bare:
     """The soil in the picture; ``feet`` (n, 2) are where caps stand on it."""
-    place = _Wander(*rng.uniform((0, 0, 0), (2 * np.pi, textures.SIZE, textures.SIZE)).tolist())
+    # Rows of the picture stay nearly rows of the tiles, which memory likes; upside down is another bed too.
+    turn = rng.uniform(-0.2, 0.2) + np.pi * rng.integers(2)
+    place = _Wander(turn, *rng.uniform(0, textures.SIZE, 2).tolist())
     near = _nearness(feet, view)
     colour = np.empty((view.height, view.width, 3), np.float32)
     height = np.empty((view.height, view.width), np.float32)
@@ -86,11 +90,11 @@ def _earth(soil: Soil, sowing: Sowing, x: Image, y: Image, near: Image) -> tuple
     """Colour and height of soil, mycelium and pinheads at places on the tiles."""
     relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
     earth = PEAT + (LOAM - PEAT) * np.float32(sowing.brightness)
-    colour = earth * np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4)[..., None]
+    colour = tinted(np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4), earth)
     height = 0.5 * soil.relief * relief + 0.5 * grain
 
     fluff = _mycelium(x, y, cloud, strands, near, amount=sowing.mycelium)
-    colour += (MYCELIUM * (0.8 + 0.15 * grain)[..., None] - colour) * fluff[..., None]
+    colour = mixed(colour, tinted(0.8 + 0.15 * grain, MYCELIUM), fluff)
     height += 3.0 * fluff
 
     rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
@@ -113,11 +117,13 @@ def _nearness(feet: Floats, view: View) -> Image:
 
 def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, amount: float) -> Image:
     """Share of white: strands everywhere a little, felted to clumps in some regions."""
-    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * y, 2.3 * x))
+    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * x, 2.3 * y + 411))
     region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
     clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
     web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
-    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * 0.95
+    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * min(
+        0.95, 8 * amount
+    )
 
 
 def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
@@ -125,7 +131,8 @@ def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -
     rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
     # Each crumb needs a region of its own richness, so that they thin out instead of being cut off.
     region = 1.8 * amount - 1.35 + 0.75 * cloud + 0.9 * near
-    return np.where(region > 0.9 * tone, 1.25 * rise, 0), tone
+    least = 0.9 * tone + 20 * max(0.0, 0.1 - amount)
+    return np.where(region > least, 1.25 * rise, 0), tone
 
 
 def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
@@ -145,7 +152,9 @@ def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.
         window = height[top:bottom, left:right]
         if window.size:
             raised = np.zeros_like(window)
-            cv2.polylines(raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4)
+            cv2.polylines(
+                raised, [line - 16 * np.array([left, top])], False, 2.0 + thick, thick, cv2.LINE_8, 4
+            )
             window += raised
 
 
@@ -155,7 +164,7 @@ def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float
     beyond = (x - where) * side + 0.3 * height
     board = (beyond > 0) & (beyond < 12)
     colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
-    colour[beyond >= 12] *= 0.04
+    colour *= threefold(np.where(beyond >= 12, np.float32(0.04), np.float32(1)))
     height -= np.clip(beyond, 0, 60)
 
 

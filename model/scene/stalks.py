@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 
-from model.scene.caps import Box, Image, Surface
+from model.scene.caps import Box, Surface
 from model.scene.growth import Stand
+from model.scene.pixels import Image, unit
 from model.scene.view import View, project
 
 THICKNESS = (0.36, 0.52)
@@ -73,18 +75,17 @@ def surface_of_stalk(stalk: Stalk, box: Box) -> Surface:
     full = math.hypot(at.length, climb)
     steep, level = climb / full, at.length / full
     lean = end - front * steep
-    normal = np.dstack(
+    normal = cv2.merge(
         [
             lean * at.ahead[0] - side * at.ahead[1],
             lean * at.ahead[1] + side * at.ahead[0],
             np.maximum(front * level + np.maximum(-end, 0) * steep, 0.05),
         ]
     )
-    normal /= np.sqrt(np.einsum("rcx,rcx->rc", normal, normal))[..., None]
     return Surface(
         cover=at.cover,
         z=stalk.foot[2] + climb * at.up + at.half * front * level,
-        normal=normal,
+        normal=unit(normal),
         skin_x=at.up * full,
         skin_y=np.arcsin(side) * at.half,
         rise=at.up,

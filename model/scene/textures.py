@@ -6,20 +6,21 @@ random place, turned a random way, so that two caps never carry the same skin.
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
+from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-Tile = NDArray[np.float32]
-"""(side, side) or (side, side, channels); the last row and column repeat the first."""
+Tile = NDArray[Any]
+"""float32 (side, side) or (side, side, channels); the last row and column repeat the first."""
 
 SIZE = 1024
 SPECK_CELL = 16
 
 
-def look_up(tile: Tile, x: NDArray[np.float32], y: NDArray[np.float32]) -> Tile:
+def look_up(tile: Tile, x: Tile, y: Tile) -> Tile:
     """The tile at float32 coordinates of any size, repeating; bilinear."""
     side = np.float32(len(tile) - 1)
     x = x - side * np.floor(x / side)
@@ -27,13 +28,13 @@ def look_up(tile: Tile, x: NDArray[np.float32], y: NDArray[np.float32]) -> Tile:
     return cv2.remap(tile, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
 
 
-@lru_cache(maxsize=None)
+@cache
 def cloud() -> Tile:
     """Soft clouds of all sizes: mean 0, standard deviation 1."""
     return _noise(seed=1, slope=1.7, coarsest=300.0, finest=6.0)
 
 
-@lru_cache(maxsize=None)
+@cache
 def clods() -> Tile:
     """Lumps of soil with creases between: mean 0, standard deviation 1."""
     lumps = sum(
@@ -44,7 +45,7 @@ def clods() -> Tile:
     return _standardised(np.asarray(lumps) + 2.0 * grit).astype(np.float32)
 
 
-@lru_cache(maxsize=None)
+@cache
 def threads() -> Tile:
     """Strands: 1 on a strand, falling to 0 away from it, branching at several sizes."""
     strands = np.zeros((SIZE + 1, SIZE + 1), np.float32)
@@ -54,31 +55,31 @@ def threads() -> Tile:
     return strands.astype(np.float32)
 
 
-@lru_cache(maxsize=None)
+@cache
 def grain() -> Tile:
     """Fine, even noise: mean 0, standard deviation 1."""
     return _noise(seed=30, slope=0.5, coarsest=10.0, finest=1.6)
 
 
-@lru_cache(maxsize=None)
+@cache
 def skin() -> Tile:
     """Channels: blotches and pores; each mean 0, deviation 1."""
     return np.dstack([cloud(), _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8)])
 
 
-@lru_cache(maxsize=None)
+@cache
 def earth() -> Tile:
     """Channels: clods, regions, grit, strands, as the tiles of these names."""
     return np.dstack([clods(), cloud(), grain(), threads()])
 
 
-@lru_cache(maxsize=None)
+@cache
 def felt() -> Tile:
     """Channels: regions and strands, to be looked up finer than ``earth`` and turned."""
     return np.dstack([cloud(), threads()])
 
 
-@lru_cache(maxsize=None)
+@cache
 def plates() -> Tile:
     """Cells of about 24 px: channel 0 is the distance to the cell's border, px, channel 1 a value a cell."""
     rng = np.random.default_rng(50)
@@ -86,7 +87,8 @@ def plates() -> Tile:
     seeds = np.ones((SIZE, SIZE), np.uint8)
     seeds[tuple(rng.integers(0, SIZE, (2, count)))] = 0
     tiled = np.pad(seeds, 96, mode="wrap")
-    _, owner = cv2.distanceTransformWithLabels(tiled, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    _, labels = cv2.distanceTransformWithLabels(tiled, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    owner = labels.astype(np.intp)
     border = (owner != np.roll(owner, 1, axis=0)) | (owner != np.roll(owner, 1, axis=1))
     distance = cv2.distanceTransform((~border).astype(np.uint8), cv2.DIST_L2, 5)
     value = rng.random(int(owner.max()) + 1)[owner]
@@ -94,9 +96,10 @@ def plates() -> Tile:
     return _closed(np.dstack([distance[inner, inner], value[inner, inner]]))
 
 
-@lru_cache(maxsize=None)
+@cache
 def specks() -> Tile:
-    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1]."""
+    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1],
+    channel 2 clouds by which they gather."""
     rng = np.random.default_rng(70)
     cells = 512 // SPECK_CELL
     value = np.kron(rng.random((cells, cells)), np.ones((SPECK_CELL, SPECK_CELL)))
@@ -104,18 +107,18 @@ def specks() -> Tile:
     offset = np.arange(SPECK_CELL) + 0.5 - SPECK_CELL / 2
     for row in range(cells):
         for column in range(cells):
-            (x, y), angle = rng.uniform(-2.5, 2.5, 2), rng.uniform(0, np.pi)
+            (x, y), angle = rng.uniform(-5.5, 5.5, 2), rng.uniform(0, np.pi)
             long, wide = rng.lognormal(0.2, 0.45), rng.lognormal(-0.25, 0.35)
             dx, dy = np.meshgrid(offset - x, offset - y)
             along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
             spot = np.clip(1.4 - np.hypot(along / long, across / wide), 0, 1) * rng.uniform(0.5, 1.0)
             dark[row * SPECK_CELL :, column * SPECK_CELL :][:SPECK_CELL, :SPECK_CELL] = spot
-    return _closed(np.dstack([dark, value]))
+    return _closed(np.dstack([dark, value, cloud()[: len(dark), : len(dark)]]))
 
 
-@lru_cache(maxsize=None)
+@cache
 def crumbs() -> Tile:
-    """Pinheads and white crumbs: channel 0 their height over the soil, px, channel 1 a value each; 0 between."""
+    """Pinheads and white crumbs: channel 0 their height over the soil, px, channel 1 a value each."""
     rng = np.random.default_rng(60)
     side, count = 640, 4000
     height = np.zeros((side, side), np.float32)
@@ -124,10 +127,14 @@ def crumbs() -> Tile:
     for x, y in middle[rng.integers(0, len(middle), count)] + rng.normal(0, 7.0, (count, 2)):
         radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
         _raise_crumb(height, value, x, y, radius=radius, rng=rng)
-    return _closed(np.dstack([height, value]))
+    # Each value reaches a little beyond its crumb, lest it fade at the rim between pixels.
+    beyond = cv2.dilate(value, np.ones((5, 5), np.uint8))
+    return _closed(np.dstack([height, np.where(height > 0, value, beyond)]))
 
 
-def _raise_crumb(height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator) -> None:
+def _raise_crumb(
+    height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator
+) -> None:
     reach = int(radius * 1.5) + 2
     columns = np.arange(int(x) - reach, int(x) + reach + 1)
     rows = np.arange(int(y) - reach, int(y) + reach + 1)

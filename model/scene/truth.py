@@ -38,24 +38,27 @@ class BedCap(NamedTuple):
 def tell_truth(caps: list[Cap], seen: list[Seen], owners: Owners) -> tuple[BedCap, ...]:
     """The caps with a pixel in sight; both from the lowest to the highest."""
     in_sight = [part for part in seen if part.layer.is_cap]
-    return tuple(_cap_as_seen(caps[part.layer.mushroom], part, owners, order) for order, part in enumerate(in_sight))
+    return tuple(
+        _cap_as_seen(caps[part.layer.mushroom], part, owners, order) for order, part in enumerate(in_sight)
+    )
 
 
 def _cap_as_seen(cap: Cap, part: Seen, owners: Owners, order: int) -> BedCap:
     whole = polygon_of_cap(cap)
     mask = (owners[window(part.box)] == part.layer.owner).astype(np.uint8)
+    count = int(mask.sum())
     return BedCap(
-        visible=_moved(outline_of_mask(mask), part.box),
+        visible=[whole] if count == part.layer.area else _moved(outline_of_mask(mask), part.box),
         whole=whole,
         ellipse=_fitted(whole),
         order=order,
-        visible_fraction=int(mask.sum()) / part.layer.area,
+        visible_fraction=count / part.layer.area,
         diameter=2 * (part.layer.area / np.pi) ** 0.5,
     )
 
 
 def _moved(outline: Outline, box: Box) -> Outline:
-    """From a box to the image: the box ends where the image does or a pixel outside the cap, so nothing is cut."""
+    """From a box to the image. It ends a pixel outside the cap or where the image does: nothing is cut."""
     return [part_of_points(points_of_part(part) + box[:2]) for part in outline]
 
 
