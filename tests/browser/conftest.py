@@ -14,8 +14,9 @@ from app.bench.tab import Tab, chromium
 from app.demo import make_demo
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
+    # One a module: while playwright is at work its event loop runs, and asyncio.run refuses to.
     with chromium() as launched:
         yield launched
 
