@@ -92,8 +92,7 @@ def _guarded(together: Together, cap: int) -> tuple[Circle | Ellipse, str | None
     ellipse = _ellipse(together.fit.outlines, cap)
     if not np.isfinite([ellipse.cx, ellipse.cy, ellipse.a, ellipse.b]).all():
         return around, "no fit; enclosing circle"
-    # The circle runs around the outer edges of even points: within a pixel of the one around the pixels.
-    if np.hypot(ellipse.cx - x, ellipse.cy - y) > max(r - 1, 0):
+    if np.hypot(ellipse.cx - x, ellipse.cy - y) > r:
         return around, "centre outside the enclosing circle; enclosing circle"
     return ellipse, None
 

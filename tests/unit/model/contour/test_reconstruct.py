@@ -111,7 +111,8 @@ def check(found: Reconstruction, cap: Silhouette) -> None:
     numbers = [value for name in found.whole.__struct_fields__ for value in [getattr(found.whole, name)]]
     assert all(math.isfinite(value) for value in (*numbers, *found.centre, *(found.centre_sd or ())))
     around = enclosing_circle(np.concatenate(contours_of(cap)))
-    assert math.dist(found.centre, (around.cx, around.cy)) <= around.r + 1
+    # A rim runs half a pixel outside the pixels' centres, and even points along it cut corners.
+    assert math.dist(found.centre, (around.cx, around.cy)) <= around.r + 1.5
 
 
 @pytest.mark.parametrize("method", METHODS)
