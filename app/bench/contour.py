@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -66,9 +67,17 @@ def run(*, quick: bool = False, real: Path | None = None) -> list[Row]:
         images = [_made(SEED + index, noise) for index in range(count)]
         rows += _rows(images, {f"clusters, noisy by {noise:.0f} px": CERTAIN["without doubtful caps"]})
     if real is not None:
-        choices = {f"{real.name}, {name}": choice for name, choice in BY_COVERAGE.items()}
-        rows += _rows(_checked(real), choices)
+        checked = measured_by_coverage(read_json(real / "checked.json" if real.is_dir() else real))
+        rows += [{**row, "masks": f"{real.name}, {row['masks']}"} for row in checked]
     return rows
+
+
+def measured_by_coverage(document: dict[str, Any]) -> list[Row]:
+    """The rows of a COCO document of checked caps: of all that are certain, by coverage, of the doubtful.
+
+    Its caps hold ``center``, and may hold ``visible_fraction`` (else 1), ``doubt`` and ``ignore``.
+    """
+    return _rows(_checked(document), BY_COVERAGE)
 
 
 def _made(seed: int, noise: float) -> Truth:
@@ -84,9 +93,7 @@ def _made(seed: int, noise: float) -> Truth:
     )
 
 
-def _checked(path: Path) -> list[Truth]:
-    """The images of a COCO file whose caps hold ``center``, ``visible_fraction``, ``doubt``, ``ignore``."""
-    document = read_json(path / "checked.json" if path.is_dir() else path)
+def _checked(document: dict[str, Any]) -> list[Truth]:
     images = []
     for image in document["images"]:
         caps = [each for each in document["annotations"] if each["image_id"] == image["id"]]
