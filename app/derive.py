@@ -12,11 +12,12 @@ from typing import TypeVar
 
 import msgspec
 
-from app.gateway.messages import Fit, Refit
+from app.gateway.messages import Arc, Fit, Refit
 from app.nearby import keys_near
 from app.scene import Scene, scene_of
 from model.contour.marks import whole_of_mark
 from model.contour.reconstruct import Reconstruction, reconstruct
+from model.contour.result import Arc as FoundArc
 from model.geometry import Circle, GeometryError, Polygon
 from model.raster import check_mark, check_outline
 from storage import derived
@@ -39,6 +40,10 @@ class Whole:
 
     shape: Shape | None
     note: str
+    centre_sd: tuple[float, float] | None = None
+    """One standard deviation along x and y, pixels; None for a mark."""
+    arcs: tuple[FoundArc, ...] = ()
+    """The visible outline cut up; empty for a mark."""
 
     @property
     def centre(self) -> tuple[float, float] | None:
@@ -64,13 +69,15 @@ def whole_of(uid: str, cap: Cap, scene: Scene) -> Whole:
 
 
 def refit(scene: Scene, request: Refit) -> Fit:
-    """Answers a refit: the whole outline of a cap as it is being dragged."""
+    """Answers a refit: the whole outline of a cap as it is selected or dragged, and how it came about."""
     whole = whole_of(request.annotation, request.cap, scene)
     return Fit(
         seq=request.seq,
         annotation=request.annotation,
         whole=whole.shape,
         centre=whole.centre,
+        centre_sd=whole.centre_sd,
+        arcs=[Arc(kind=arc.kind, points=arc.points.round(2).ravel().tolist()) for arc in whole.arcs],
         note=whole.note,
     )
 
@@ -144,7 +151,7 @@ def _wholes(caps: Sequence[Outline], wanted: Sequence[int], *, image: Image) -> 
 
 
 def _from_reconstruction(found: Reconstruction) -> Whole:
-    return Whole(found.whole, found.refusal or found.why)
+    return Whole(found.whole, found.refusal or found.why, centre_sd=found.centre_sd, arcs=found.arcs)
 
 
 def _from_mark(mark: Mark) -> Whole:

@@ -58,6 +58,24 @@ def scene(
     _print("scene", bench.run(quick=quick, real=real), as_json=as_json)
 
 
+@commands.command()
+def contour(
+    *,
+    real: Annotated[
+        Path | None, typer.Option(help="Folder of hand-checked photos with checked.json, measured too.")
+    ] = None,
+    quick: Quick = False,
+    as_json: AsJson = False,
+) -> None:
+    """Measure every contour method's centres against the truth, and its time against OpenCV alone.
+
+    Example: `fairyring bench contour --json`
+    """
+    from app.bench import contour as bench
+
+    _print("contour", bench.run(quick=quick, real=real), as_json=as_json)
+
+
 def _print(title: str, rows: list[dict[str, Any]], *, as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps(rows))

@@ -44,7 +44,7 @@ class Edits(FromEditor, frozen=True, tag="edits"):
 
 
 class Refit(FromEditor, frozen=True, tag="refit"):
-    """Asks for the whole outline of a cap while it is dragged. Only the latest is answered."""
+    """Asks for the whole outline of a cap as it is selected or dragged. Only the latest is answered."""
 
     seq: int
     image: int
@@ -121,6 +121,14 @@ class Changed(FromServer, frozen=True, tag="changed"):
     user: str
 
 
+class Arc(Struct, frozen=True, kw_only=True):
+    """A piece of a visible outline: own rim, hidden by a neighbour, cut by the image border, or a hollow."""
+
+    kind: Literal["visible", "hidden", "border", "concave"]
+    points: list[float]
+    """Along the outline, a flat list x0, y0, x1, y1, …"""
+
+
 class Fit(FromServer, frozen=True, tag="fit"):
     """Answers Refit."""
 
@@ -128,6 +136,10 @@ class Fit(FromServer, frozen=True, tag="fit"):
     annotation: str
     whole: Shape | None
     centre: tuple[float, float] | None
+    centre_sd: tuple[float, float] | None = None
+    """One standard deviation of the centre along x and y, pixels; None for a mark."""
+    arcs: list[Arc] = field(default_factory=list)
+    """The visible outline cut up, in order; empty for a mark."""
     note: str = ""
     """How the fit came about, for the inspector; or why there is none."""
 

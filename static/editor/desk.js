@@ -5,6 +5,7 @@
  * @module
  */
 
+import { placedWhole } from "./caps.js";
 import { boundsOf, changed, movedShape, nudgedHandle, withCap } from "./shapes.js";
 import { signal } from "./signal.js";
 import { Store, isPrediction, shapeOfPrediction } from "./store.js";
@@ -13,6 +14,7 @@ import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view
 /** @typedef {import("./handles.js").Handle} Handle */
 /** @typedef {import("./messages.js").Cap} Cap */
 /** @typedef {import("./messages.js").Document} Document */
+/** @typedef {import("./messages.js").Fit} Fit */
 /** @typedef {import("./messages.js").Image} Image */
 /** @typedef {import("./store.js").Change} Change */
 /** @typedef {import("./store.js").Shape} Shape */
@@ -45,6 +47,8 @@ export class Desk {
   active = null;
   /** Caps being changed, not yet committed, by uid. @type {Map<string, Shape>} */
   drafts = new Map();
+  /** What the server said last. @type {Fit | null} */
+  fitting = null;
   /** @type {View} */
   view = { scale: 1, x: 0, y: 0 };
   size = { width: 0, height: 0 };
@@ -112,6 +116,16 @@ export class Desk {
   /** The one selected item. @returns {Shape | null} */
   get sole() {
     return this.selected.size === 1 ? (this.selection[0] ?? null) : null;
+  }
+
+  /**
+   * How the outline of the one selected cap came about; a placed one needs no telling.
+   *
+   * @returns {Fit | null}
+   */
+  get explanation() {
+    const { sole, fitting } = this;
+    return sole && fitting?.annotation === sole.uid && !placedWhole(sole.cap) ? fitting : null;
   }
 
   /** What is drawn over the picture rather than in it. */

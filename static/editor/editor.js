@@ -7,6 +7,7 @@
 import { COMMANDS } from "./commands.js";
 import { ConflictCard } from "./conflict.js";
 import { Desk } from "./desk.js";
+import { Fitting } from "./fitting.js";
 import { Frame } from "./frame.js";
 import { keyList } from "./help.js";
 import { listenToKeys } from "./keyboard.js";
@@ -15,8 +16,6 @@ import { listenToPanel, pressedButtons } from "./panel.js";
 import { Photos } from "./photos.js";
 import { Pointer } from "./pointer.js";
 import { expose } from "./probe.js";
-import { Refits } from "./refits.js";
-import { placedWhole } from "./caps.js";
 import { statusIn } from "./status.js";
 import { Sync } from "./sync.js";
 import { openOutbox } from "./tabs.js";
@@ -27,7 +26,6 @@ import { SelectTool } from "./tools/select.js";
 import { Transport } from "./transport.js";
 
 /** @typedef {import("./messages.js").FromServer} FromServer */
-/** @typedef {import("./messages.js").Fit} Fit */
 /** @typedef {import("./messages.js").Layers} Layers */
 /** @typedef {import("./messages.js").Show} Show */
 /** @typedef {import("./messages.js").ToServer} ToServer */
@@ -47,7 +45,7 @@ export class Editor {
   #host;
   #transport;
   #sync;
-  #refits;
+  #fitting;
   #photos;
   #frame;
   #desk;
@@ -82,7 +80,6 @@ export class Editor {
       progress: () => this.#progress(),
       refused: (reason) => this.#say(reason, "error"),
     });
-    this.#refits = new Refits(send);
     this.#photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, this.#desk, this.#photos, () => [
       this.#tool.sketch ?? (() => null),
@@ -90,6 +87,7 @@ export class Editor {
     ]);
     this.#say = noticesIn(host);
     this.#status = statusIn(host);
+    this.#fitting = new Fitting(host, this.#desk, send);
     this.#card = new ConflictCard(host, {
       resolve: (clash, whose) => this.#sync.resolve(clash, whose),
       show: (clash) => this.#showClash(clash),
@@ -160,10 +158,6 @@ export class Editor {
     const { signals } = this.#desk;
     signals.selection.listen(() => this.#tellSelection());
     signals.nudge.listen(() => this.#progress());
-    signals.draft.listen(({ uid, cap }) => {
-      const image = this.#desk.image?.id;
-      if (image !== undefined && !placedWhole(cap)) this.#refits.ask({ image, annotation: uid, cap });
-    });
     new ResizeObserver(([entry]) => this.#resized(entry.contentRect)).observe(this.#host);
     window.addEventListener("beforeunload", (event) => {
       this.#desk.settle();
@@ -276,7 +270,7 @@ export class Editor {
       case "changed":
         return this.#sync.changed(message.image, message.annotations);
       case "fit":
-        return this.#fitted(message);
+        return this.#fitting.take(message);
       case "layers":
         return this.#layers(message);
       case "command":
@@ -306,6 +300,7 @@ export class Editor {
       this.#desk.settle();
       this.#frame.blank();
     }
+    this.#fitting.forget();
     this.#sync.open(image.id, document.annotations);
     this.#desk.open(document);
     if (select) this.#desk.select([select], { reveal: true });
@@ -321,23 +316,6 @@ export class Editor {
     const drawn = performance.now();
     this.#frame.log({ event: asked, drawn, draw_ms: 0, kind: "switch" });
     this.#photos.prefetch(ahead);
-  }
-
-  /** @type {(fit: Fit) => void} */
-  #fitted(fit) {
-    const question = this.#refits.take(fit);
-    const desk = this.#desk;
-    const draft = desk.drafts.get(fit.annotation);
-    const { whole, centre } = fit;
-    if (draft) {
-      desk.drafts.set(fit.annotation, { ...draft, whole, centre });
-      desk.signals.overlay.emit();
-      return;
-    }
-    const shape = desk.store.get(fit.annotation);
-    if (shape && shape.cap === question?.cap) {
-      desk.store.apply([{ before: shape, after: { ...shape, whole, centre } }], "remote");
-    }
   }
 
   /** @type {(layers: Layers) => void} */

@@ -233,12 +233,20 @@
  */
 
 /**
+ * @typedef {Object} Arc
+ * @property {"visible" | "hidden" | "border" | "concave"} kind
+ * @property {number[]} points
+ */
+
+/**
  * @typedef {Object} Fit
  * @property {"fit"} type
  * @property {number} seq
  * @property {string} annotation
  * @property {Whole | null} whole
  * @property {Point | null} centre
+ * @property {Point | null} centre_sd
+ * @property {Arc[]} arcs
  * @property {string} note
  */
 

@@ -5,6 +5,7 @@
  * @module
  */
 
+import { drawArcs, drawUncertainty, reachOfFit } from "./arcs.js";
 import { boundsOfWhole, measure, placedWhole, ringsOf } from "./caps.js";
 import { rimPoints } from "./handles.js";
 import { CASING, COLOURS, FILLS } from "./palette.js";
@@ -58,8 +59,9 @@ export class Overlay {
       const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
       if (only) drawHovered(context, desk.view, shape);
       else drawLifted(context, desk.view, shape, desk);
-      this.#touch(onScreen(desk.view, shape));
+      this.#touch(onScreen(desk.view, reachOf(shape)));
     }
+    if (desk.explanation && desk.layers.whole) this.#touch(onScreen(desk.view, reachOfFit(desk.explanation)));
     for (const sketch of sketches) this.#touch(sketch(context, desk.view));
   }
 
@@ -103,9 +105,8 @@ function hoveredAndLifted(desk) {
   return [...uids].flatMap((uid) => desk.drafts.get(uid) ?? desk.item(uid) ?? []);
 }
 
-/** @type {(view: View, shape: Shape) => Bounds | null} */
-function onScreen(view, shape) {
-  const bounds = reachOf(shape);
+/** @type {(view: View, bounds: Bounds | null) => Bounds | null} */
+function onScreen(view, bounds) {
   if (!bounds) return null;
   const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
   const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
@@ -136,8 +137,11 @@ function drawLifted(context, view, shape, desk) {
   if (isPrediction(shape) && !desk.drafts.has(shape.uid)) context.setLineDash([5, 4]);
   strokeCased(context, { colour: COLOURS.outline, width: 1.5, casing: CASING });
   context.setLineDash([]);
+  const explanation = selected && desk.layers.whole ? desk.explanation : null;
+  if (explanation) drawArcs(context, view, explanation);
   drawMark(context, view, shape);
   drawFit(context, view, shape);
+  if (explanation) drawUncertainty(context, view, explanation);
   if (selected && desk.selected.size === 1) drawHandles(context, view, shape, desk);
 }
 

@@ -19,6 +19,18 @@ export const COLOURS = {
   draft: "#ffffff",
 };
 
+/**
+ * What an arc of the selected outline is called and how it is drawn; the dash alone tells them apart.
+ *
+ * @type {Record<import("./messages.js").Arc["kind"], {name: string, colour: string, dash: number[]}>}
+ */
+export const ARCS = {
+  visible: { name: "rim", colour: "#45c8ff", dash: [] },
+  hidden: { name: "behind a neighbour", colour: "#ff7a45", dash: [9, 6] },
+  border: { name: "image border", colour: "#ffffff", dash: [14, 5, 1, 5] },
+  concave: { name: "hollow", colour: "#f6f04e", dash: [1, 6] },
+};
+
 export const FILLS = {
   outline: "rgba(69, 200, 255, 0.17)",
   selected: "rgba(69, 200, 255, 0.12)",

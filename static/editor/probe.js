@@ -52,6 +52,10 @@ export function expose(host, { desk, frame, waiting, connection, tool }) {
     get image() {
       return desk.image;
     },
+    /** How the outline of the one selected cap came about. */
+    get fit() {
+      return desk.explanation;
+    },
     get waiting() {
       return waiting();
     },

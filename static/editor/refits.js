@@ -1,5 +1,5 @@
 /**
- * Asks the server for the whole outline of a cap while it changes: the latest wins, one question at a
+ * Asks the server for the whole outline of a cap: the latest wins, one question at a
  * time.
  *
  * @module
@@ -30,6 +30,11 @@ export class Refits {
   ask(question) {
     this.#next = question;
     if (!this.#asked || performance.now() - this.#askedAt > PATIENCE_MS) this.#go();
+  }
+
+  /** What was asked is not waited for any longer: another image is shown, or the line was broken. */
+  forget() {
+    this.#next = this.#asked = null;
   }
 
   #go() {

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import math
 import subprocess
 import sys
 
 import pytest
+from typer.testing import CliRunner
 
 from app.bench import editor, store
 from app.bench.timing import Row, p95_row, row
+from app.commands.benchmarks import commands
+from model.contour.methods import METHODS
 
 HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", "rich", "playwright"}
 
@@ -51,6 +55,13 @@ def test_help_imports_nothing_heavy():
 
     assert "Usage" in done.stdout
     assert HEAVY & set(done.stderr.split()) == set()
+
+
+def test_the_contour_benchmark_can_be_called_by_name():
+    done = CliRunner().invoke(commands, ["contour", "--quick", "--json"])
+
+    assert done.exit_code == 0
+    assert {row["method"] for row in json.loads(done.stdout)} == set(METHODS)
 
 
 def _named(rows: list[Row], figure: str) -> Row:

@@ -67,6 +67,30 @@ def test_accepting_a_prediction_makes_it_an_annotation(tab: Tab, project: Path) 
     assert kept["centre_x"] is not None
 
 
+def test_a_selected_cap_tells_its_arcs_and_its_doubt_and_goes_on_telling_while_dragged(tab: Tab) -> None:
+    prediction = a_free_prediction(tab)
+    part = prediction["cap"]["visible"][0]
+    tab.select(centroid(part))
+    tab.wait_for("window.fairyring.state.fit")
+    fit = tab.state("fit")
+    assert fit["annotation"] == prediction["uid"]
+    assert {arc["kind"] for arc in fit["arcs"]} <= {"visible", "hidden", "border", "concave"}
+    assert all(0 < sd < 20 for sd in fit["centre_sd"])
+    tab.page.get_by_text(fit["note"]).wait_for()
+    corner, middle = (part[0], part[1]), centroid(part)
+    way = tuple(at + 0.2 * (at - centre) for at, centre in zip(corner, middle, strict=True))
+    tab.page.mouse.move(*tab.screen(corner))
+    tab.page.mouse.down()
+    tab.page.mouse.move(*tab.screen(way), steps=6)
+    tab.wait_for(f"window.fairyring.state.fit && window.fairyring.state.fit.seq > {fit['seq']}")
+    tab.page.mouse.up()
+    tab.saved()
+    tab.wait_for("window.fairyring.state.fit?.annotation === window.fairyring.state.selection[0]")
+    tab.press("m")
+    tab.press("Escape")
+    assert tab.state("fit") is None
+
+
 def draw_outline(tab: Tab) -> str:
     """Draws a cap of five corners on bare soil by clicks and returns its uid."""
     tab.press("w")

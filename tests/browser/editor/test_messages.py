@@ -26,6 +26,7 @@ STRUCTS = (
     Circle,
     Ellipse,
     Polygon,
+    messages.Arc,
     *get_args(messages.Incoming),
     *get_args(messages.Outgoing),
 )

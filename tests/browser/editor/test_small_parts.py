@@ -71,6 +71,66 @@ def test_one_fit_is_asked_for_at_a_time_and_the_latest_wins(call) -> None:
     assert call("refits", body) == [[[1, "a"], [2, "c"]], None, "a", "c"]
 
 
+def test_a_question_that_was_given_up_does_not_hold_up_the_next(call) -> None:
+    body = """
+      const sent = [];
+      const refits = new m.Refits((message) => sent.push(message) > 0);
+      const question = (name) => ({image: 1, annotation: 'u', cap: name});
+      refits.ask(question('a')); refits.ask(question('b'));
+      refits.forget();
+      refits.ask(question('c'));
+      return [sent.map(({seq, cap}) => [seq, cap]), refits.take({seq: 1}), refits.take({seq: 2}).cap];
+    """
+    assert call("refits", body) == [[[1, "a"], [2, "c"]], None, "c"]
+
+
+def test_the_caption_gives_the_reason_and_how_well_the_centre_is_known(call) -> None:
+    fits = [{"note": "regular", "centre_sd": [0.1234, 2]}, {"note": "the marked circle", "centre_sd": None}]
+    captions = call("caption", "return a.map(m.captionOf)", fits)
+    assert captions == ["regular · centre ± 0.12, 2.00 px", "the marked circle"]
+
+
+def test_arcs_of_all_kinds_differ_by_dash_alone(call) -> None:
+    dashes = call("palette", "return Object.values(m.ARCS).map(({dash}) => dash.join())")
+    assert len(dashes) == len(set(dashes)) == 4
+
+
+DRAWN = """
+  const canvas = new OffscreenCanvas(60, 40);
+  const context = canvas.getContext('2d');
+  context.lineCap = 'round';
+  m[a.draw](context, {scale: 2, x: 10, y: 0}, a.fit);
+  const {data} = context.getImageData(0, 0, 60, 40);
+  const at = (x, y) => [...data.slice(4 * (60 * y + x), 4 * (60 * y + x) + 4)];
+  return a.where.map(([x, y]) => at(x, y));
+"""
+
+
+def test_an_arc_is_drawn_where_it_lies_in_the_colour_of_its_kind(call) -> None:
+    arcs = [
+        {"kind": "visible", "points": [0, 5, 20, 5]},
+        {"kind": "border", "points": [10, 15]},
+    ]
+    where = [(30, 10), (30, 30), (30, 20)]
+    painted = call("arcs", DRAWN, {"draw": "drawArcs", "fit": {"arcs": arcs}, "where": where})
+    assert painted == [[0x45, 0xC8, 0xFF, 255], [255, 255, 255, 255], [0, 0, 0, 0]]
+
+
+def test_the_uncertainty_is_an_ellipse_of_one_standard_deviation_that_never_vanishes(call) -> None:
+    where = [(30 + 16, 20), (30, 20 + 6), (30 + 2, 20), (30, 20)]
+    wide = {"centre": [10, 10], "centre_sd": [8, 3]}
+    tiny = {"centre": [10, 10], "centre_sd": [0.01, 0.01]}
+    seen = [
+        [
+            pixel[3] > 100
+            for pixel in call("arcs", DRAWN, {"draw": "drawUncertainty", "fit": fit, "where": where})
+        ]
+        for fit in (wide, tiny)
+    ]
+    assert seen[0] == [True, True, False, False]
+    assert seen[1][:3] == [False, False, True]
+
+
 FAKE_SOCKET = """
   const sockets = [];
   window.WebSocket = class extends EventTarget {

@@ -1,12 +1,13 @@
 import gzip
 import json
+import math
 from pathlib import Path
 
 import pytest
 import typer
 from typer.testing import CliRunner
 
-from app.bench.contour import run
+from app.bench.contour import measured_by_coverage, run
 from app.commands import contour
 from model.geometry import Circle, polygon_of_shape
 
@@ -85,3 +86,40 @@ def test_the_benchmark_finds_map_the_best_of_the_methods():
         ranked = sorted((row for row in rows if row["masks"] == masks), key=lambda row: row["cdr_mean"])
         assert ranked[0]["method"] == "map"
         assert 0.6 < ranked[0]["rms_z"] < 1.5
+
+
+def test_checked_photos_are_measured_by_how_much_of_the_caps_is_in_sight():
+    angles = [math.tau * i / 60 for i in range(60)]
+    kinds = [
+        (0.5, False, False),
+        (0.7, False, False),
+        (0.95, False, False),
+        (1.0, True, False),
+        (1.0, False, True),
+    ]
+    caps = []
+    for number, (visible, doubt, ignore) in enumerate(kinds):
+        x, y = 50.0 + 100 * number, 60.0
+        ring = [value for a in angles for value in (x + 30 * math.cos(a), y + 30 * math.sin(a))]
+        caps.append(
+            {
+                "id": number,
+                "image_id": 1,
+                "segmentation": [ring],
+                "center": [x, y],
+                "visible_fraction": visible,
+                "doubt": doubt,
+                "ignore": ignore,
+            }
+        )
+    image = {"id": 1, "file_name": "a.jpg", "width": 500, "height": 120}
+    rows = measured_by_coverage({"images": [image], "annotations": caps})
+    counts = {row["masks"]: row["caps"] for row in rows if row["method"] == "map"}
+    assert counts == {
+        "without doubtful caps": 3,
+        "visible < 60 %": 1,
+        "visible 60–90 %": 1,
+        "visible ≥ 90 %": 1,
+        "doubtful": 1,
+    }
+    assert all(row["cdr_mean"] < 0.1 for row in rows if row["method"] == "map")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from app.derive import derive_edits, fill_in, refit, whole_of
@@ -13,7 +14,7 @@ from storage.derived import images_with_underived
 from storage.documents import load_annotations, load_document
 from storage.journal import Derived, commit
 from storage.project import Project
-from storage.records import Cap, Edit, Image
+from storage.records import Annotation, Cap, Edit, Image
 from tests.unit.app.conftest import circle
 from tests.unit.app.tab import SQUARE, new_cap
 
@@ -83,6 +84,56 @@ def test_a_refit_says_what_the_edit_will_store(project: Project) -> None:
     stored = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])[0]
     assert fit.whole == stored.whole
     assert fit.centre == stored.centre
+
+
+def test_a_refit_tells_the_arcs_of_an_outline_apart_and_how_well_the_centre_is_known() -> None:
+    whole, cut = circle(70, 55, 24), circle(4, 60, 24)
+    cut[0][0::2] = [max(x, 0.0) for x in cut[0][0::2]]
+    free, bordered = (
+        refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=Cap(visible=outline)))
+        for outline in (whole, cut)
+    )
+    assert [arc.kind for arc in free.arcs] == ["visible"]
+    around = np.reshape(free.arcs[0].points, (-1, 2))
+    assert np.hypot(*(around - (70, 55)).T) == pytest.approx(24, abs=1.0)
+    assert sorted(arc.kind for arc in bordered.arcs) == ["border", "visible"]
+    border = next(arc for arc in bordered.arcs if arc.kind == "border")
+    assert max(border.points[0::2]) < 2
+    assert free.centre_sd is not None
+    assert bordered.centre_sd is not None
+    assert 0 < free.centre_sd[0] < bordered.centre_sd[0]
+    assert free.note.startswith("regular")
+    assert bordered.note.startswith("irregular")
+
+
+def test_a_refit_names_the_piece_that_a_neighbour_hides() -> None:
+    """A cap at (60, 60) with its right side, from x = 70 on, under the round cap at (90, 60)."""
+    angles = np.linspace(0, 2 * np.pi, 80, endpoint=False)
+    rim = np.stack([60 + 24 * np.cos(angles), 60 + 24 * np.sin(angles)], axis=1)
+    away = rim - (90, 60)
+    far = np.maximum(np.hypot(*away.T), 24)[:, None]
+    bitten = (90, 60) + away / np.hypot(*away.T)[:, None] * far
+    front = Annotation(uid="front", image=1, revision=1, cap=Cap(visible=circle(90, 60, 24, points=80)))
+    scene = Scene(IMAGE, {"front": front}, [])
+    cap = Cap(visible=[bitten.ravel().tolist()])
+    fit = refit(scene, Refit(seq=1, image=1, annotation="a", cap=cap))
+    assert fit.centre == pytest.approx((60, 60), abs=0.5)
+    hidden = [arc for arc in fit.arcs if arc.kind == "hidden"]
+    assert len(hidden) == 1
+    seam = np.reshape(hidden[0].points, (-1, 2))
+    assert np.hypot(*(seam - (90, 60)).T) == pytest.approx(24, abs=1.5)
+
+
+def test_a_mark_has_no_arcs_and_no_doubt_about_its_centre() -> None:
+    cap = Cap(visible=SQUARE, mark=Circle(50, 40, 10))
+    fit = refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=cap))
+    assert (fit.arcs, fit.centre_sd, fit.note) == ([], None, "the marked circle")
+
+
+def test_a_refit_of_a_wild_outline_says_why_there_is_none() -> None:
+    fit = refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=Cap(visible=[[1.0, 2.0]])))
+    assert (fit.whole, fit.centre, fit.arcs) == (None, None, [])
+    assert fit.note.endswith(".")
 
 
 def test_edits_that_make_no_sense_are_left_to_the_journal(project: Project) -> None:
