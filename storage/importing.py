@@ -55,7 +55,7 @@ def import_paths(
     project: Project,
     paths: Sequence[Path],
     *,
-    format: Format = "auto",  # noqa: A002
+    kind: Format = "auto",
     as_: As = "annotations",
     strict: bool = False,
     link: bool = False,
@@ -69,7 +69,7 @@ def import_paths(
     Args:
         project: where to.
         paths: photos, COCO or labelme files, folders of them.
-        format: what the paths hold.
+        kind: what the paths hold.
         as_: what the shapes become.
         strict: take nothing if there is any problem.
         link: leave photos where they are instead of copying them.
@@ -85,7 +85,7 @@ def import_paths(
     report = progress or (lambda _done, _total, _what: None)
     with _no_garbage_collection():
         report(0, 0, "Reading")
-        sources = gather([Path(path) for path in paths], kind=format)
+        sources = gather([Path(path) for path in paths], kind=kind)
         with project.read() as connection:
             known = photos_of_project(connection)
         intake = take_in(sources, known=known, light=light, form=form, progress=report)

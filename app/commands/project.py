@@ -100,7 +100,7 @@ def import_(
         report = import_paths(
             project,
             paths,
-            format=format_.value,
+            kind=format_.value,
             as_=as_.value,
             strict=strict,
             link=link,

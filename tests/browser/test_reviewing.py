@@ -67,7 +67,9 @@ def test_the_review_lists_cdr_and_a_click_opens_the_image_at_its_worst_cap(
         row.click()
         tab.wait_for("window.fairyring.state.selection[0] === 'cap2'")
         assert tab.state("image")["file_name"] == file_name
-        x, y = tab.screen(tuple(tab.shape("cap2")["centre"]))  # type: ignore[index,arg-type]
+        worst = tab.shape("cap2")
+        assert worst is not None
+        x, y = tab.screen((worst["centre"][0], worst["centre"][1]))
         assert 0 < x < 1100
         assert 0 < y < 900
     finally:

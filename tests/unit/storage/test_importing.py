@@ -450,16 +450,16 @@ def test_a_folder_of_labelme_files_and_photos(project, tmp_path, write_photo):
 def test_the_format_can_be_said(beds, write_coco, square, tmp_path):
     file = write_coco([{"segmentation": square}])
     with pytest.raises(StoreError, match="is not a labelme file"):
-        import_paths(beds, [file], format="labelme")
+        import_paths(beds, [file], kind="labelme")
     named = shutil.copy(file, tmp_path / "labels.txt")
-    assert import_paths(beds, [tmp_path / "labels.txt"], format="coco").annotations == 1
+    assert import_paths(beds, [tmp_path / "labels.txt"], kind="coco").annotations == 1
     assert named.exists()
 
 
 def test_an_import_of_images_leaves_labels_alone(project, write_coco, write_photo, square):
     file = write_coco([{"segmentation": square}])
     write_photo(file.parent / "bed_1.png")
-    report = import_paths(project, [file.parent], format="images")
+    report = import_paths(project, [file.parent], kind="images")
     assert (report.images, report.annotations) == (1, 0)
 
 
