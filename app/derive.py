@@ -13,7 +13,6 @@ from typing import TypeVar
 import msgspec
 
 from app.gateway.messages import Arc, Fit, Refit
-from app.nearby import keys_near
 from app.scene import Scene, scene_of
 from model.contour.marks import whole_of_mark
 from model.contour.reconstruct import Reconstruction, reconstruct
@@ -63,9 +62,8 @@ def whole_of(uid: str, cap: Cap, scene: Scene) -> Whole:
         outline = check_outline(cap.visible, **size)
     except GeometryError as error:
         return Whole(None, str(error))
-    others = scene.around(uid, prediction=cap.prediction)
-    near = keys_near(outline, others, boxes=scene.boxes, reach=REACH)
-    return _wholes([outline, *(others[key] for key in near)], [0], image=scene.image)[0]
+    others = scene.near(uid, outline, prediction=cap.prediction, reach=REACH)
+    return _wholes([outline, *others], [0], image=scene.image)[0]
 
 
 def refit(scene: Scene, request: Refit) -> Fit:

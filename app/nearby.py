@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TypeVar
 
@@ -12,6 +13,8 @@ Box = tuple[float, float, float, float]
 """Left, top, right, bottom; pixels."""
 
 MOST_KEPT = 20_000
+NOWHERE: Box = (math.inf, math.inf, -math.inf, -math.inf)
+"""Touches no box."""
 
 
 def box_of(outline: Outline) -> Box | None:
@@ -39,15 +42,18 @@ class Boxes:
         return box
 
 
+def around(outline: Outline, *, reach: float) -> Box:
+    """The box of ``outline`` widened on all sides by ``reach`` times its longer side; NOWHERE if empty."""
+    left, top, right, bottom = box_of(outline) or NOWHERE
+    margin = reach * max(right - left, bottom - top, 0)
+    return left - margin, top - margin, right + margin, bottom + margin
+
+
 def keys_near(
     outline: Outline, others: Mapping[Key, Outline], *, boxes: Boxes, reach: float = 0.0
 ) -> list[Key]:
     """Whose box touches that of ``outline`` widened on all sides by ``reach`` times its longer side."""
-    box = box_of(outline)
-    if box is None:
-        return []
-    margin = reach * max(box[2] - box[0], box[3] - box[1])
-    left, top, right, bottom = box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin
+    left, top, right, bottom = around(outline, reach=reach)
     return [
         key
         for key, other in others.items()

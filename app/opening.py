@@ -10,7 +10,6 @@ from sqlalchemy import Connection
 
 from app.gateway.messages import Show
 from app.gateway.photos import url_of_photo
-from app.nearby import Boxes
 from app.session import Selection, Session
 from app.workspace import Workspace
 from storage import images
@@ -52,9 +51,7 @@ def _find(workspace: Workspace, connection: Connection, image_id: int, which: Im
 
 
 def _show(session: Session, found: _Found, *, select: str | None) -> None:
-    session.document = found.document
-    session.annotations = {annotation.uid: annotation for annotation in found.document.annotations}
-    session.boxes = Boxes()
+    session.show(found.document)
     session.position, session.count = found.place.position, found.place.count
     session.selection = Selection(annotation=select)
     session.send(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
-from app.nearby import Boxes
+import numpy as np
+
+from app.nearby import NOWHERE, Boxes, around
 from model.geometry import polygon_of_shape
 from storage.records import Annotation, Document, Image, Outline, Prediction
 
@@ -20,19 +23,29 @@ class Scene:
     predictions: Sequence[Prediction]
     boxes: Boxes = field(default_factory=Boxes)
 
-    @property
+    @cached_property
     def visible(self) -> dict[str, Outline]:
         """What is visible of every cap: the live annotations, and the predictions nobody has touched."""
         touched = {annotation.cap.prediction for annotation in self.annotations.values()}
         live = {uid: a.cap.visible for uid, a in self.annotations.items() if not a.deleted}
         return live | {key_of(p.id): p.visible for p in self.predictions if p.id not in touched}
 
-    def around(self, uid: str, *, prediction: int | None) -> dict[str, Outline]:
-        """What is visible of all caps but one, and the prediction it started from."""
-        visible = self.visible
-        visible.pop(uid, None)
-        visible.pop(key_of(prediction), None)
-        return visible
+    @cached_property
+    def _places(self) -> np.ndarray:
+        """(n, 4), the boxes of ``visible``."""
+        boxes = [self.boxes.of(outline) or NOWHERE for outline in self.visible.values()]
+        return np.array(boxes).reshape(-1, 4)
+
+    def near(self, uid: str, outline: Outline, *, prediction: int | None, reach: float) -> list[Outline]:
+        """What is visible around a cap with this outline, without itself and the prediction it started from.
+
+        Of others whose box touches its own, widened on all sides by ``reach`` times the longer side.
+        """
+        left, top, right, bottom = around(outline, reach=reach)
+        (x0, y0, x1, y1), keys = self._places.T, list(self.visible)
+        touching = np.flatnonzero((x0 <= right) & (x1 >= left) & (y0 <= bottom) & (y1 >= top))
+        own = (uid, key_of(prediction))
+        return [self.visible[keys[place]] for place in touching if keys[place] not in own]
 
 
 def scene_of(document: Document) -> Scene:

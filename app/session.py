@@ -64,9 +64,10 @@ class Session:
     hang_up: Callable[[], object] = lambda: None
     """Ends the editor's socket."""
     document: Document | None = None
-    """The image on screen as it was opened; ``annotations`` is kept up to date."""
+    """The image on screen as it was opened, by ``show``; ``annotations`` is kept up to date."""
     annotations: dict[str, Annotation] = field(default_factory=dict)
     boxes: Boxes = field(default_factory=Boxes)
+    _scene: Scene | None = field(default=None, init=False, repr=False)
     filter: ImageFilter = field(default_factory=ImageFilter)
     """Which images the list shows, and so what comes next."""
     position: int = 0
@@ -83,10 +84,13 @@ class Session:
 
     @property
     def scene(self) -> Scene | None:
-        """The image on screen with its caps as they are now."""
+        """The image on screen with its caps as they are now; the same until one of them changes."""
         if self.document is None:
             return None
-        return Scene(self.document.image, dict(self.annotations), self.document.predictions, self.boxes)
+        if self._scene is None or self._scene.image is not self.document.image:
+            annotations, predictions = dict(self.annotations), self.document.predictions
+            self._scene = Scene(self.document.image, annotations, predictions, self.boxes)
+        return self._scene
 
     def shows(self, image_id: int) -> bool:
         """Whether this image is on screen."""
@@ -110,11 +114,18 @@ class Session:
         """Asks for parts of the panel to be drawn anew."""
         self.redraw(parts)
 
+    def show(self, document: Document) -> None:
+        """Notes that another document is on screen."""
+        self.document = document
+        self.annotations = {annotation.uid: annotation for annotation in document.annotations}
+        self.boxes, self._scene = Boxes(), None
+
     def take_in(self, annotations: list[Annotation]) -> None:
         """Notes what has become of annotations of the image on screen."""
         for annotation in annotations:
             if self.shows(annotation.image):
                 self.annotations[annotation.uid] = annotation
+                self._scene = None
 
 
 class Tabs:

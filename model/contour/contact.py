@@ -12,7 +12,7 @@ from model.contour.rims import Rims
 from model.contour.silhouette import Silhouette
 
 REACH = (1.5, 3.0, 4.5)
-"""How far outside a rim to look for a neighbour, pixels: outlines of masks leave gaps."""
+"""How far outside a rim to look for a neighbour, the nearest first, pixels: outlines of masks leave gaps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,15 +33,16 @@ class Contact:
 def contact_of(caps: Sequence[Silhouette], rims: Rims, *, width: int, height: int) -> Contact:
     """Looks outward from each point of the rims of these caps, in an image of this size."""
     labels, left, top = _labels(caps)
-    neighbour = np.full(rims.spacing.shape, -1)
-    own = np.arange(len(caps))[:, None]
-    for reach in reversed(REACH):
-        x, y = np.moveaxis(np.floor(rims.points + reach * rims.outward).astype(np.int64), -1, 0)
-        inside = (x >= left) & (x < left + labels.shape[1]) & (y >= top) & (y < top + labels.shape[0])
-        there = labels[np.where(inside, y - top, 0), np.where(inside, x - left, 0)] - 1
-        neighbour = np.where(inside & (there >= 0) & (there != own), there, neighbour)
-    x, y = np.moveaxis(rims.points + REACH[0] * rims.outward, -1, 0)
+    outside = rims.points + np.multiply.outer(REACH, rims.outward)
+    x, y = outside[0, ..., 0], outside[0, ..., 1]
     border = (x < 0) | (y < 0) | (x >= width) | (y >= height)
+    at = np.floor(outside).astype(np.int64) - (left, top)
+    x, y = at[..., 0], at[..., 1]
+    inside = (x >= 0) & (x < labels.shape[1]) & (y >= 0) & (y < labels.shape[0])
+    there = np.where(inside, labels[np.where(inside, y, 0), np.where(inside, x, 0)] - 1, -1)
+    there[there == np.arange(len(caps))[:, None]] = -1
+    near, far, farthest = there
+    neighbour = np.where(near >= 0, near, np.where(far >= 0, far, farthest))
     return Contact(np.where(border, -1, neighbour), border)
 
 

@@ -25,6 +25,13 @@ CUT = 3.0
 """Residuals beyond so many standard deviations hardly count (Geman and McClure's weight)."""
 LARGEST_MOVE = 0.25
 """Of the radius, in one step."""
+LARGEST_GROWTH = 0.2
+"""Of log r, in one step."""
+LARGEST_CHANGE = 0.1
+"""Of a shape parameter, in one step."""
+
+_ORDERS = np.stack([np.ones(16), -np.arange(2, 18)])
+"""What to multiply the second harmonic and the next by for the level and for minus its slope."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,42 +109,52 @@ def _advance(now: Outlines, evidence: Evidence, precision: Array, soft: float) -
     curvature = weighted @ slope.transpose(0, 2, 1)
     diagonal = np.arange(curvature.shape[1])
     curvature[:, diagonal, diagonal] += precision
-    pull = (weighted @ residual[..., None])[..., 0] - precision * _off_prior(now, evidence)
+    pull = (weighted @ residual[..., None])[..., 0]
+    pull[:, 2] -= precision[:, 2] * (now.log_radius - evidence.size)
+    pull[:, 3:] -= precision[:, 3:] * now.shape
     moved, step = _moved(now, np.linalg.solve(curvature, pull[..., None])[..., 0])
     return _Step(moved, residual - (step[:, None] @ slope)[:, 0], slope, curvature)
 
 
 def _linearised(points: Array, outlines: Outlines) -> tuple[Array, Array]:
     """Residuals (n, K) and their slopes (n, D, K) by the parameters, both in pixels."""
-    away = points - outlines.centre[:, None]
-    distance = np.sqrt((away**2).sum(axis=-1)).clip(1e-6)
-    cosine, sine = away[..., 0] / distance, away[..., 1] / distance
+    away = _complex(points - outlines.centre[:, None])[..., 0]
+    distance = np.maximum(np.abs(away), 1e-6)
+    toward = away / distance
     radius = np.exp(outlines.log_radius)[:, None]
+    # With h = a + ib, conj(h) exp(ikφ) has the real part a cos kφ + b sin kφ, whose slope is −k × the other.
+    weights = _complex(outlines.shape).conj()
+    harmonics = _powers(toward, count=weights.shape[1])
+    level, turning = (weights[:, None] * _ORDERS[:, : weights.shape[1]] @ harmonics).transpose(1, 0, 2)
     slope = np.empty((len(points), 3 + outlines.shape.shape[1], points.shape[1]))
-    level, turning = np.zeros_like(distance), np.zeros_like(distance)
-    c, s = cosine, sine
-    for index in range(0, outlines.shape.shape[1], 2):
-        order = index // 2 + 2
-        c, s = c * cosine - s * sine, s * cosine + c * sine
-        a, b = outlines.shape[:, index, None], outlines.shape[:, index + 1, None]
-        level += a * c + b * s
-        turning += order * (b * c - a * s)
-        slope[:, 3 + index], slope[:, 4 + index] = c, s
-    level += _second_order(outlines.shape, slope[:, 3], slope[:, 4])
     # Moving the centre shortens the distance and turns the point's polar angle.
-    slope[:, 0] = (cosine + turning * sine) * (radius / distance)
-    slope[:, 1] = (sine - turning * cosine) * (radius / distance)
-    slope[:, 2] = 1
-    slope *= radius[:, None]
-    return (np.log(distance) - outlines.log_radius[:, None] - level) * radius, slope
+    moved = toward * (1 - 1j * turning.imag) * (radius**2 / distance)
+    slope[:, 0], slope[:, 1], slope[:, 2] = moved.real, moved.imag, radius
+    np.multiply(harmonics.real, radius[..., None], out=slope[:, 3::2])
+    np.multiply(harmonics.imag, radius[..., None], out=slope[:, 4::2])
+    along = (weights[:, :1] * harmonics[:, 0]).real
+    exact = level.real + _second_order(outlines.shape, along)
+    return (np.log(distance) - outlines.log_radius[:, None] - exact) * radius, slope
 
 
-def _second_order(shape: Array, cosine: Array, sine: Array) -> Array:
-    """What the exact log polar radius of the ellipse has beyond u cos 2φ + v sin 2φ, (n, K)."""
-    u, v = shape[:, 0, None], shape[:, 1, None]
-    size = np.sqrt(u**2 + v**2 + 1e-16)
-    along = u * cosine + v * sine
-    return -0.5 * np.log(np.cosh(2 * size) - np.sinh(2 * size) * along / size) - along
+def _complex(pairs: Array) -> NDArray[np.complexfloating]:
+    """(…, 2m) as (…, m), x + iy."""
+    return np.ascontiguousarray(pairs, np.float64).view(np.complex128)
+
+
+def _powers(toward: NDArray[np.complexfloating], *, count: int) -> NDArray[np.complexfloating]:
+    """The second power and the next, (n, count, K), of unit numbers (n, K)."""
+    powers = np.empty((len(toward), count, toward.shape[1]), np.complex128)
+    power = toward
+    for index in range(count):
+        power = np.multiply(power, toward, out=powers[:, index])
+    return powers
+
+
+def _second_order(shape: Array, along: Array) -> Array:
+    """What the exact log polar radius of the ellipse has beyond u cos 2φ + v sin 2φ = ``along``, (n, K)."""
+    size = np.sqrt(shape[:, 0] ** 2 + shape[:, 1] ** 2 + 1e-16)[:, None]
+    return -0.5 * np.log(np.cosh(2 * size) - (np.sinh(2 * size) / size) * along) - along
 
 
 def _weights(residual: Array, evidence: Evidence, soft: float) -> Array:
@@ -160,23 +177,13 @@ def _prior_precision(evidence: Evidence, priors: Priors, *, parameters: int) -> 
     return precision
 
 
-def _off_prior(now: Outlines, evidence: Evidence) -> Array:
-    """How far the parameters are from what is expected of them, (n, D)."""
-    size = now.log_radius - evidence.size
-    return np.concatenate([np.zeros_like(now.centre), size[:, None], now.shape], axis=1)
-
-
 def _moved(now: Outlines, step: Array) -> tuple[Outlines, Array]:
     """The outlines one step (n, D) on, and that step cut to as far as they may go at once."""
-    length = np.maximum(np.hypot(step[:, 0], step[:, 1]), 1e-12)
-    step = np.concatenate(
-        [
-            step[:, :2] * np.minimum(1, LARGEST_MOVE / length)[:, None],
-            step[:, 2:3].clip(-0.2, 0.2),
-            step[:, 3:].clip(-0.1, 0.1),
-        ],
-        axis=1,
-    )
+    most = np.full(step.shape[1], LARGEST_CHANGE)
+    most[2] = LARGEST_GROWTH
+    most[:2] = np.inf
+    step = np.minimum(np.maximum(step, -most), most)
+    step[:, :2] /= np.maximum(np.hypot(step[:, 0], step[:, 1]) / LARGEST_MOVE, 1)[:, None]
     moved = Outlines(
         centre=now.centre + step[:, :2] * np.exp(now.log_radius)[:, None],
         log_radius=now.log_radius + step[:, 2],

@@ -43,10 +43,11 @@ def meetings_of(contact: Contact, rims: Rims, fit: Fit, *, noise: float) -> Meet
     """Weighs the three readings of every shared border by the residuals of both caps along it."""
     cap, point = np.nonzero(contact.neighbour >= 0)
     other = contact.neighbour[cap, point]
-    key = np.minimum(cap, other) * len(rims.points) + np.maximum(cap, other)
+    of_point = np.full(contact.neighbour.shape, -1)
+    if len(cap) == 0:
+        return Meetings(np.zeros((0, 2), np.int64), np.zeros((0, 2)), np.zeros(0), of_point)
     key = np.minimum(cap, other) * len(rims.points) + np.maximum(cap, other)
     keys, pair = np.unique(key, return_inverse=True)
-    of_point = np.full(contact.neighbour.shape, -1)
     of_point[cap, point] = pair
     samples = rims.spacing[cap, point] / INDEPENDENT
     residual = fit.residual[cap, point]

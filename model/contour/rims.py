@@ -19,6 +19,8 @@ BINS = 48
 LEAST_PART = 0.1
 """A part with a shorter contour than this share of the longest is a crumb, and is left out."""
 
+_LAST, _NEXT = np.arange(BINS) - 1, np.arange(1, BINS + 1) % BINS
+
 
 @dataclass(frozen=True, slots=True)
 class Rims:
@@ -41,7 +43,7 @@ def rims_of(caps: Sequence[Silhouette]) -> Rims:
     contours = [_whole_contour(cap) for cap in caps]
     pixels = np.array([len(contour) for contour in contours])
     points = _even_means(np.concatenate(contours), pixels)
-    along = np.roll(points, -1, axis=1) - np.roll(points, 1, axis=1)
+    along = points.take(_NEXT, axis=1) - points.take(_LAST, axis=1)
     length = np.hypot(along[..., 0], along[..., 1])
     outward = np.stack([along[..., 1], -along[..., 0]], axis=-1) / np.maximum(length, 1e-9)[..., None]
     outward *= np.where(_area(points) >= 0, 1, -1)[:, None, None]
@@ -57,8 +59,9 @@ def _whole_contour(cap: Silhouette) -> Points:
 
 def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n,), shoelace areas of closed polygons (n, K, 2), positive where they run clockwise on the screen."""
-    x, y = np.moveaxis(points - points[:, :1], -1, 0)
-    return (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2
+    away = points - points[:, :1]
+    beside = away.take(_NEXT, axis=1)
+    return (away[..., 0] * beside[..., 1] - away[..., 1] * beside[..., 0]).sum(axis=1) / 2
 
 
 def _even_means(contours: Points, pixels: NDArray[np.int_]) -> NDArray[np.float64]:

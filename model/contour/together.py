@@ -96,7 +96,9 @@ def fit_together(caps: Sequence[Silhouette], priors: Priors, *, width: int, heig
 def _enclosing(rims: Rims, priors: Priors) -> Outlines:
     """To start from: the circles around the visible rims."""
     origin = rims.points[:, 0]
-    around = [cv2.minEnclosingCircle(rim) for rim in (rims.points - origin[:, None]).astype(np.float32)]
+    around = [
+        cv2.minEnclosingCircle(rim) for rim in (rims.points - origin[:, None]).astype(np.float32, order="C")
+    ]
     return Outlines(
         centre=origin + np.array([centre for centre, _ in around]),
         log_radius=np.log(np.maximum([radius for _, radius in around], 0.5)),

@@ -13,9 +13,9 @@ const KINDS = /** @type {Arc["kind"][]} */ (Object.keys(ARCS));
  * @returns {(fit: Fit | null) => void}
  */
 export function captionIn(host) {
-  const reason = element("span");
+  const reason = document.createTextNode("");
   const key = element("span", { class: "fairyring-key" });
-  const caption = element("div", { class: "fairyring-caption" }, reason, key);
+  const caption = element("div", { class: "fairyring-caption" }, element("span", {}, reason), key);
   caption.dataset.fairyringChrome = "";
   caption.hidden = true;
   host.append(caption);
@@ -24,7 +24,7 @@ export function captionIn(host) {
     caption.hidden = !fit?.note;
     if (!fit) return;
     const text = captionOf(fit);
-    if (reason.textContent !== text) reason.textContent = text;
+    if (reason.data !== text) reason.data = text;
     const kinds = KINDS.filter((kind) => fit.arcs.some((arc) => arc.kind === kind));
     if (kinds.join() === named) return;
     named = kinds.join();

@@ -9,8 +9,6 @@ import { element } from "./dom.js";
 import { CASING, COLOURS } from "./palette.js";
 import { strokeCased, traceRing, traceWhole } from "./pen.js";
 import { shapeOfAnnotation } from "./store.js";
-import { reachOf } from "./paint.js";
-import { toScreen } from "./view.js";
 
 /** @typedef {import("./sync.js").Clash} Clash */
 
@@ -84,10 +82,8 @@ export class ConflictCard {
   /** Their side, drawn on the photo. @type {import("./overlay.js").Sketch} */
   sketch = (context, view) => {
     const clash = this.#clash;
-    if (!clash || clash.theirs.deleted || this.#card.dataset.image !== String(clash.image)) return null;
+    if (!clash || clash.theirs.deleted || this.#card.dataset.image !== String(clash.image)) return false;
     const shape = shapeOfAnnotation(clash.theirs);
-    const bounds = reachOf(shape);
-    if (!bounds) return null;
     context.beginPath();
     for (const ring of shape.cap.visible) traceRing(context, view, ring);
     const placed = placedWhole(shape.cap);
@@ -95,9 +91,7 @@ export class ConflictCard {
     context.setLineDash([6, 4]);
     strokeCased(context, { colour: COLOURS.theirs, width: 2.5, casing: CASING });
     context.setLineDash([]);
-    const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
-    const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
-    return { x0: x0 - 6, y0: y0 - 6, x1: x1 + 6, y1: y1 + 6 };
+    return true;
   };
 }
 

@@ -82,7 +82,7 @@ export class Editor {
     });
     this.#photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, this.#desk, this.#photos, () => [
-      this.#tool.sketch ?? (() => null),
+      this.#tool.sketch ?? (() => false),
       this.#card.sketch,
     ]);
     this.#say = noticesIn(host);

@@ -1,19 +1,20 @@
 /**
  * What changes from frame to frame: the cap being edited with its handles, the one under the pointer, the
- * outline being drawn. Only the rectangle that was drawn last is wiped.
+ * outline being drawn.
  *
  * @module
  */
 
 import { drawArcs, drawUncertainty, reachOfFit } from "./arcs.js";
 import { boundsOfWhole, measure, placedWhole, ringsOf } from "./caps.js";
+import { Glass } from "./glass.js";
 import { rimPoints } from "./handles.js";
 import { CASING, COLOURS, FILLS } from "./palette.js";
 import { reachOf } from "./paint.js";
 import { strokeCased, traceCross, traceRing, traceWhole } from "./pen.js";
 import { isPrediction } from "./store.js";
 import { spacedVertices } from "./vertices.js";
-import { toScreen } from "./view.js";
+import { joined, toScreen } from "./view.js";
 
 /** @typedef {import("./desk.js").Desk} Desk */
 /** @typedef {import("./handles.js").Handle} Handle */
@@ -23,24 +24,20 @@ import { toScreen } from "./view.js";
 /** @typedef {import("./view.js").Bounds} Bounds */
 /** @typedef {import("./view.js").View} View */
 /** @typedef {CanvasRenderingContext2D} Context */
-/** @typedef {(context: Context, view: View) => Bounds | null} Sketch  draws, and returns what it touched on screen */
+/** @typedef {(context: Context, view: View) => boolean} Sketch  draws, and says whether there was anything to draw */
 
 /** Handles no closer than this, or they would hide the rim they are on. */
 const HANDLE_GAP_PX = 13;
 const REACH_PX = 28;
 
 export class Overlay {
-  /** @type {Bounds | null} */
-  #dirty = null;
-  #canvas = document.createElement("canvas");
-  #context;
+  #caps;
+  #sketches;
 
   /** @param {HTMLElement} host */
   constructor(host) {
-    const context = this.#canvas.getContext("2d");
-    if (!context) throw new Error("This browser cannot draw on a canvas.");
-    this.#context = context;
-    host.append(this.#canvas);
+    this.#caps = new Glass(host);
+    this.#sketches = new Glass(host);
   }
 
   /**
@@ -49,53 +46,37 @@ export class Overlay {
    * @param {Sketch[]} sketches  of the tool in hand, of a conflict
    */
   draw(desk, ratio, sketches) {
-    const context = this.#context;
-    this.#fit(desk.size, ratio);
-    this.#wipe();
-    if (desk.hidden) return;
-    context.lineJoin = "round";
-    context.lineCap = "round";
-    for (const shape of hoveredAndLifted(desk)) {
+    this.#drawCaps(desk, ratio);
+    this.#drawSketches(desk, ratio, sketches);
+  }
+
+  /** @type {(desk: Desk, ratio: number) => void} */
+  #drawCaps(desk, ratio) {
+    const shapes = desk.hidden ? [] : hoveredAndLifted(desk);
+    const context = this.#caps.lay(onScreen(desk.view, reachOfAll(shapes, desk)), desk.size, ratio);
+    if (!context) return;
+    this.#caps.soil();
+    for (const shape of shapes) {
       const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
       if (only) drawHovered(context, desk.view, shape);
       else drawLifted(context, desk.view, shape, desk);
-      this.#touch(onScreen(desk.view, reachOf(shape)));
     }
-    if (desk.explanation && desk.layers.whole) this.#touch(onScreen(desk.view, reachOfFit(desk.explanation)));
-    for (const sketch of sketches) this.#touch(sketch(context, desk.view));
   }
 
-  /** @type {(size: {width: number, height: number}, ratio: number) => void} */
-  #fit({ width, height }, ratio) {
-    const canvas = this.#canvas;
-    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (canvas.width === w && canvas.height === h) return;
-    canvas.width = w;
-    canvas.height = h;
-    canvas.style.width = `${width}px`;
-    canvas.style.height = `${height}px`;
-    this.#context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.#dirty = null;
+  /** @type {(desk: Desk, ratio: number, sketches: Sketch[]) => void} */
+  #drawSketches({ hidden, size, view }, ratio, sketches) {
+    const context = this.#sketches.lay({ x0: 0, y0: 0, x1: size.width, y1: size.height }, size, ratio);
+    if (!context || hidden) return;
+    for (const sketch of sketches) if (sketch(context, view)) this.#sketches.soil();
   }
+}
 
-  #wipe() {
-    if (!this.#dirty) return;
-    const { x0, y0, x1, y1 } = this.#dirty;
-    this.#context.clearRect(Math.floor(x0), Math.floor(y0), Math.ceil(x1 - x0) + 2, Math.ceil(y1 - y0) + 2);
-    this.#dirty = null;
-  }
-
-  /** @type {(bounds: Bounds | null) => void} */
-  #touch(bounds) {
-    if (!bounds) return;
-    const dirty = this.#dirty ?? bounds;
-    this.#dirty = {
-      x0: Math.min(dirty.x0, bounds.x0),
-      y0: Math.min(dirty.y0, bounds.y0),
-      x1: Math.max(dirty.x1, bounds.x1),
-      y1: Math.max(dirty.y1, bounds.y1),
-    };
-  }
+/** What is to be drawn of them, image pixels. @type {(shapes: Shape[], desk: Desk) => Bounds | null} */
+function reachOfAll(shapes, { explanation, layers }) {
+  const all = shapes.flatMap((shape) => reachOf(shape) ?? []);
+  const explained = shapes.length && explanation && layers.whole ? reachOfFit(explanation) : null;
+  if (explained) all.push(explained);
+  return all.length ? all.reduce(joined) : null;
 }
 
 /** @type {(desk: Desk) => Shape[]} */

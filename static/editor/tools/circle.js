@@ -5,7 +5,7 @@
  * @module
  */
 
-import { boundsOfWhole, hundredths, insideCap, newCap, placedWhole } from "../caps.js";
+import { hundredths, insideCap, newCap, placedWhole } from "../caps.js";
 import { SMALLEST_RADIUS, movedHandle, nearestHandle } from "../handles.js";
 import { pick } from "../hit.js";
 import { CASING, COLOURS, FILLS } from "../palette.js";
@@ -115,16 +115,13 @@ export class CircleTool {
   /** @type {import("../overlay.js").Sketch} */
   sketch = (context, view) => {
     const circle = this.#circle;
-    if (!circle) return null;
+    if (!circle) return false;
     context.beginPath();
     traceWhole(context, view, circle);
     context.fillStyle = FILLS.mark;
     context.fill();
     traceCross(context, ...toScreen(view, circle.cx, circle.cy), 6);
     strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
-    const bounds = boundsOfWhole(circle);
-    const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
-    const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
-    return { x0: x0 - 10, y0: y0 - 10, x1: x1 + 10, y1: y1 + 10 };
+    return true;
   };
 }

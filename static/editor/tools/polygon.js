@@ -120,7 +120,7 @@ export class PolygonTool {
 
   /** @type {import("../overlay.js").Sketch} */
   sketch = (context, view) => {
-    if (this.#points.length === 0) return null;
+    if (this.#points.length === 0) return false;
     const points = this.#next
       ? [...this.#points, this.#closing ? this.#points[0] : this.#next]
       : this.#points;
@@ -140,13 +140,6 @@ export class PolygonTool {
     context.strokeStyle = "#0b1220";
     context.lineWidth = 1;
     context.stroke();
-    const xs = points.map(([x]) => x * view.scale + view.x);
-    const ys = points.map(([, y]) => y * view.scale + view.y);
-    return {
-      x0: Math.min(...xs) - 8,
-      y0: Math.min(...ys) - 8,
-      x1: Math.max(...xs) + 8,
-      y1: Math.max(...ys) + 8,
-    };
+    return true;
   };
 }

@@ -223,7 +223,7 @@ export class SelectTool {
 
   /** @type {import("../overlay.js").Sketch} */
   sketch = (context, { scale, x, y }) => {
-    if (this.#grip?.kind !== "band" || !this.#moved) return null;
+    if (this.#grip?.kind !== "band" || !this.#moved) return false;
     const bounds = this.#bandBounds(this.#grip);
     const [left, top] = [bounds.x0 * scale + x, bounds.y0 * scale + y];
     const [right, bottom] = [bounds.x1 * scale + x, bounds.y1 * scale + y];
@@ -234,6 +234,6 @@ export class SelectTool {
     context.fillRect(left, top, right - left, bottom - top);
     context.strokeRect(left, top, right - left, bottom - top);
     context.setLineDash([]);
-    return { x0: left - 2, y0: top - 2, x1: right + 2, y1: bottom + 2 };
+    return true;
   };
 }

@@ -92,6 +92,7 @@ def test_less_rim_means_more_doubt():
     spread = []
     for degrees in (360, 240, 140):
         seen = (np.degrees(ANGLES) < degrees).astype(float)
-        fit = fitted(evidence(rim, seen=seen), circle(300, 200, 40))
+        border = np.where(seen[:, None] > 0, rim, 0.8 * rim + 0.2 * np.array([300, 200]))
+        fit = fitted(evidence(border, seen=seen), circle(300, 200, 40))
         spread.append(np.sqrt(np.trace(fit.covariance[0, :2, :2])) * 40)
     assert spread[0] < spread[1] < spread[2]
