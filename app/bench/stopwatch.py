@@ -10,7 +10,7 @@ SCRIPT = r"""
   for (const kind of ["pointermove", "pointerup", "keydown"]) {
     addEventListener(kind, (event) => (last[kind] = event.timeStamp), true);
   }
-  const laps = { saved: [], fit: [] };
+  const laps = { saved: [], fit: [], vertex: [] };
   const asked = new Map();
   const sequence = (data) => Number(/"seq":\s*(\d+)/.exec(data)[1]);
   const after = (task) => {
@@ -18,11 +18,14 @@ SCRIPT = r"""
     port1.onmessage = task;
     port2.postMessage(null);
   };
+  const onScreen = (lap, since) => {
+    requestAnimationFrame(() => after(() => laps[lap].push(performance.now() - since)));
+  };
+  const dragged = ({ buttons, timeStamp }) => buttons === 1 && onScreen("vertex", timeStamp);
+  addEventListener("pointermove", dragged, true);
   function received(data) {
     if (data.startsWith('{"type":"outcomes"')) laps.saved.push(performance.now() - last.pointerup);
-    if (!data.startsWith('{"type":"fit"')) return;
-    const moved = asked.get(sequence(data));
-    requestAnimationFrame(() => after(() => laps.fit.push(performance.now() - moved)));
+    if (data.startsWith('{"type":"fit"')) onScreen("fit", asked.get(sequence(data)));
   }
   window.WebSocket = class extends WebSocket {
     constructor(...where) {
@@ -38,7 +41,9 @@ SCRIPT = r"""
   window.stopwatch = { last, laps };
 })();
 """
-"""Notes when a press, a move or a key came, and when the answer to it was there (a fit: was on screen)."""
+"""Notes when a press, a move or a key came, and when the answer to it was there (a fit: was on screen).
+
+How long the dragged vertex itself takes to be on screen tells what is the browser's share of that."""
 
 BLANK = r"""
 <body style="margin: 0; height: 100vh"><script>
@@ -60,7 +65,10 @@ BLANK = r"""
 def start(tab: Tab) -> None:
     """Forgets what was measured before."""
     tab.page.evaluate(
-        "() => { fairyring.timings.length = 0; Object.assign(stopwatch.laps, { saved: [], fit: [] }); }"
+        """() => {
+            fairyring.timings.length = 0;
+            for (const lap of Object.values(stopwatch.laps)) lap.length = 0;
+        }"""
     )
 
 
@@ -72,7 +80,7 @@ def frames(tab: Tab, kind: str) -> tuple[list[float], list[float]]:
 
 
 def laps(tab: Tab, name: str) -> list[float]:
-    """From a release to its acknowledgement ("saved"), from a move to its fit on screen ("fit"); ms."""
+    """From a release to its acknowledgement ("saved"), from a move to its fit or its vertex on screen; ms."""
     return tab.page.evaluate("name => stopwatch.laps[name]", name)
 
 
