@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands import benchmarks, contour, demo, project, serve, synth
+from app.commands import benchmarks, contour, demo, evaluate, project, serve, synth
 from app.commands.version import print_version
 from model.errors import FairyringError
 
@@ -29,11 +29,8 @@ app.command("demo")(demo.demo)
 app.command("synth")(synth.synth)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
+app.add_typer(evaluate.commands, name="evaluate")
 app.add_typer(benchmarks.commands, name="bench")
-
-evaluate = typer.Typer(no_args_is_help=True, help="Measure predictions against truth.")
-evaluate.command("centres")(contour.evaluate_centres)
-app.add_typer(evaluate, name="evaluate")
 
 
 @app.callback()

@@ -14,8 +14,8 @@ import anyio.to_thread
 from app.jobs import Progress, Result
 from app.nearby import keys_near
 from app.scene import Scene, covered_by
-from model import evaluate
 from model.documents import CapRecord
+from model.evaluate import centres
 from model.geometry import diameter_of_shape
 from model.raster import rle_of_outline
 from storage.comparisons import Comparison, stale_images, store_comparison
@@ -32,14 +32,14 @@ QUIET_S = 1.0
 
 def compare(
     image: Image, annotations: Sequence[Annotation], predictions: Sequence[Prediction]
-) -> evaluate.Comparison:
+) -> centres.Comparison:
     """Pairs the caps of an image. Indices are those of ``annotations`` and ``predictions``."""
     truths = [_truth(annotation, image) for annotation in annotations]
     guesses = [_guess(prediction, image) for prediction in predictions]
-    return evaluate.compare(truths, guesses, width=image.width, height=image.height)
+    return centres.compare(truths, guesses, width=image.width, height=image.height)
 
 
-def compare_cap(scene: Scene, uid: str) -> evaluate.Pair | None:
+def compare_cap(scene: Scene, uid: str) -> centres.Pair | None:
     """The prediction that belongs to one cap, looked for among what lies near it; None where there is none.
 
     The pair's indices mean nothing to the caller.
@@ -124,9 +124,9 @@ class Reviewer:
 
 
 def _figures(
-    run_id: int, version: int, image: Image, annotations: Sequence[Annotation], found: evaluate.Comparison
+    run_id: int, version: int, image: Image, annotations: Sequence[Annotation], found: centres.Comparison
 ) -> Comparison:
-    summary = evaluate.summarise(found.errors)
+    summary = centres.summarise(found.errors)
     real = [annotation for annotation in annotations if not annotation.cap.ignored]
     worst = max(
         ((pair.error.cdr, annotations[pair.truth].uid) for pair in found.pairs if pair.error), default=None

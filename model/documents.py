@@ -5,12 +5,15 @@ Both sides come from outside and are checked; what cannot be used raises Documen
 
 from __future__ import annotations
 
-import math
+import sys
 from collections import defaultdict
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import PureWindowsPath
-from typing import Any
+from typing import Any, Literal
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from model.contour.marks import whole_of_mark
 from model.errors import FairyringError
@@ -36,13 +39,18 @@ CIRCLE_FIGURES = 3
 class DocumentError(FairyringError):
     """A document that cannot be evaluated; the sentence names the item, not the file."""
 
+    side: Literal["predicted", "truth"] | None = None
+    """Whose document it is; None where the two do not fit together."""
+
 
 class CapRecord(Struct, frozen=True, kw_only=True):
-    """One cap, true or predicted, as far as its centre is concerned."""
+    """One cap, true or predicted, as far as evaluation is concerned."""
 
     id: int | str | None = None
     rle: Rle | None = None
     """Visible pixels; None where caps are paired by id."""
+    score: float = 1.0
+    """Of a prediction; finite."""
     centre: Centre | None = None
     """None where nobody marked it, or a method refused it."""
     diameter: float | None = None
@@ -60,6 +68,8 @@ class Page(Struct, frozen=True, kw_only=True):
     height: int
     truths: list[CapRecord]
     predictions: list[CapRecord]
+    light: str | None = None
+    form: str | None = None
 
 
 class _Image(Struct, frozen=True, kw_only=True):
@@ -67,21 +77,26 @@ class _Image(Struct, frozen=True, kw_only=True):
     file_name: str
     width: int
     height: int
+    light: str | None
+    form: str | None
 
 
-def pages_of(predicted: Any, truth: Any, *, with_masks: bool) -> list[Page]:
+def pages_of(predicted: Any, truth: Any, *, masks: bool, centres: bool) -> list[Page]:
     """The truth's images in its order, with the caps of both sides.
 
     Images are paired by base file name; a result list, which names none, goes by the other side's image ids.
-    Without masks no segmentation is read and every cap must have an id. Raises DocumentError.
+    Without ``masks`` no segmentation is read and every cap must have an id. Without ``centres`` caps have
+    none, and a diameter only where a circle or an ellipse is stated. Raises DocumentError.
     """
-    true_images, predicted_images = _images(truth), _images(predicted)
+    with _blamed_on("truth"):
+        true_images, of_truth = _images(truth), _annotations(truth)
+    with _blamed_on("predicted"):
+        predicted_images, of_prediction = _images(predicted), _annotations(predicted)
     if true_images is None and predicted_images is None:
         raise DocumentError(
             "Neither side lists images, and their sizes are needed; give a COCO file with images."
         )
     listed = true_images if true_images is not None else predicted_images or {}
-    of_truth, of_prediction = _annotations(truth), _annotations(predicted)
     pages = []
     for name, image in listed.items():
         other = (predicted_images or listed).get(name)
@@ -89,17 +104,32 @@ def pages_of(predicted: Any, truth: Any, *, with_masks: bool) -> list[Page]:
             raise DocumentError(
                 f"{name} has different sizes in the two files; they must show the same photo."
             )
-        predictions = of_prediction.get(other.id, []) if other else []
+        with _blamed_on("truth"):
+            truths = _caps(of_truth.get(image.id, []), image, masks=masks, centres=centres)
+        with _blamed_on("predicted"):
+            entries = of_prediction.get(other.id, []) if other else []
+            predictions = _caps(entries, image, masks=masks, centres=centres)
         pages.append(
             Page(
                 file_name=name,
                 width=image.width,
                 height=image.height,
-                truths=_caps(of_truth.get(image.id, []), image, with_masks=with_masks),
-                predictions=_caps(predictions, image, with_masks=with_masks),
+                truths=truths,
+                predictions=predictions,
+                light=image.light,
+                form=image.form,
             )
         )
     return pages
+
+
+@contextmanager
+def _blamed_on(side: Literal["predicted", "truth"]) -> Iterator[None]:
+    try:
+        yield
+    except DocumentError as error:
+        error.side = side
+        raise
 
 
 def _images(document: Any) -> dict[str, _Image] | None:
@@ -127,7 +157,12 @@ def _image(entry: Any) -> _Image:
         raise DocumentError(f"The image {name} has no proper width and height.")
     if not isinstance(entry.get("id"), int | str):
         raise DocumentError(f"The image {name} has no id.")
-    return _Image(id=entry["id"], file_name=name, width=width, height=height)
+    light, form = (_text(entry.get(key)) for key in ("light", "form"))
+    return _Image(id=entry["id"], file_name=name, width=width, height=height, light=light, form=form)
+
+
+def _text(value: Any) -> str | None:
+    return value if isinstance(value, str) else None
 
 
 def _annotations(document: Any) -> dict[int | str, list[dict[str, Any]]]:
@@ -143,15 +178,16 @@ def _annotations(document: Any) -> dict[int | str, list[dict[str, Any]]]:
     return grouped
 
 
-def _caps(entries: list[dict[str, Any]], image: _Image, *, with_masks: bool) -> list[CapRecord]:
+def _caps(entries: list[dict[str, Any]], image: _Image, *, masks: bool, centres: bool) -> list[CapRecord]:
     caps = []
     for entry in entries:
         where = f"Annotation {entry.get('id', '(without id)')} of {image.file_name}"
         try:
-            caps.append(_cap(entry, image, with_masks=with_masks))
+            cap = _cap(entry, image, masks=masks)
+            caps.append(_with_centre(cap, entry, image) if centres else cap)
         except (GeometryError, DocumentError) as error:
             raise DocumentError(f"{where}: {error}") from error
-    if not with_masks:
+    if not masks:
         _check_ids(caps, image)
     return caps
 
@@ -162,23 +198,40 @@ def _check_ids(caps: list[CapRecord], image: _Image) -> None:
         raise DocumentError(f"The annotations of {image.file_name} need an id each to be paired by it.")
 
 
-def _cap(entry: dict[str, Any], image: _Image, *, with_masks: bool) -> CapRecord:
-    identifier = entry.get("id")
-    segmentation = entry.get("segmentation") if with_masks else None
+def _cap(entry: dict[str, Any], image: _Image, *, masks: bool) -> CapRecord:
+    identifier, shape = entry.get("id"), _shape(entry)
+    return CapRecord(
+        id=identifier if isinstance(identifier, int | str) else None,
+        rle=_rle(entry.get("segmentation"), image) if masks else None,
+        score=_score(entry),
+        diameter=diameter_of_shape(shape) if shape else None,
+        ignored=any(bool(entry.get(key)) for key in ("ignore", "ignored", "iscrowd")),
+    )
+
+
+def _with_centre(cap: CapRecord, entry: dict[str, Any], image: _Image) -> CapRecord:
     shape, centre = _shape(entry), _figures(entry, "center", 2)
-    if shape is None and with_masks and not entry.get("refusal"):
-        shape = _fitted(segmentation, image)
+    if shape is None and cap.rle is not None and not entry.get("refusal"):
+        shape = _fitted(entry.get("segmentation"), image)
     if entry.get("refusal"):
         centre = None
     elif centre is None and shape is not None:
         centre = centre_of_shape(shape)
-    return CapRecord(
-        id=identifier if isinstance(identifier, int | str) else None,
-        rle=_rle(segmentation, image) if with_masks else None,
+    return replace(
+        cap,
         centre=(float(centre[0]), float(centre[1])) if centre else None,
         diameter=diameter_of_shape(shape) if shape else _diameter_of_box(entry),
-        ignored=any(bool(entry.get(key)) for key in ("ignore", "ignored", "iscrowd")),
     )
+
+
+def _score(entry: dict[str, Any]) -> float:
+    """A shape without a score was drawn by somebody who was sure."""
+    score = entry.get("score")
+    if score is None:
+        return 1.0
+    if not _is_finite(score):
+        raise DocumentError("Its score is not a finite number; correct it, or leave it out to count as 1.")
+    return float(score)
 
 
 def _shape(entry: dict[str, Any]) -> Shape | None:
@@ -194,13 +247,14 @@ def _figures(entry: dict[str, Any], key: str, count: int) -> list[float] | None:
     value = entry.get(key)
     if value is None:
         return None
-    if (
-        not isinstance(value, list | tuple)
-        or len(value) != count
-        or any(type(figure) not in (int, float) or not math.isfinite(figure) for figure in value)
-    ):
+    if not isinstance(value, list | tuple) or len(value) != count or not all(map(_is_finite, value)):
         raise DocumentError(f"Its {key} is not {count} finite numbers.")
     return [float(figure) for figure in value]
+
+
+def _is_finite(figure: Any) -> bool:
+    """Whether it is a number that a float can hold; no comparison holds for NaN."""
+    return type(figure) in (int, float) and abs(figure) <= sys.float_info.max
 
 
 def _rle(segmentation: Any, image: _Image) -> Rle:

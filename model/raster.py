@@ -99,19 +99,30 @@ def iou_matrix(first: Sequence[Rle], second: Sequence[Rle]) -> NDArray[np.float6
 
     Raises GeometryError unless all have the same size.
     """
+    return _overlaps(first, second, over_first=False)
+
+
+def covered_matrix(first: Sequence[Rle], second: Sequence[Rle]) -> NDArray[np.float64]:
+    """(n, m) share of each first mask's pixels that each second one covers; 0 of an empty mask.
+
+    Raises GeometryError unless all have the same size.
+    """
+    return _overlaps(first, second, over_first=True)
+
+
+def shares_inside(masks: Sequence[Rle], regions: Sequence[Rle]) -> NDArray[np.float64]:
+    """(n,) share of each mask's pixels in any of the regions, all of one size; 0 of an empty mask."""
+    if not regions:
+        return np.zeros(len(masks))
+    return covered_matrix(masks, [coco.merge(list(regions), intersect=False)])[:, 0]
+
+
+def _overlaps(first: Sequence[Rle], second: Sequence[Rle], *, over_first: bool) -> NDArray[np.float64]:
     if len({tuple(rle["size"]) for rle in (*first, *second)}) > 1:
         raise GeometryError("Masks of different sizes cannot be compared.")
     if not first or not second:
         return np.zeros((len(first), len(second)))
-    return np.asarray(coco.iou(list(first), list(second), [0] * len(second)), dtype=np.float64)
-
-
-def share_inside(rle: Rle, regions: Sequence[Rle]) -> float:
-    """The share of a mask's pixels that lie in any of the regions, all of one size; 0 of an empty mask."""
-    if not regions:
-        return 0.0
-    union = coco.merge(list(regions), intersect=False)
-    return float(coco.iou([rle], [union], [1])[0, 0])
+    return np.asarray(coco.iou(list(first), list(second), [int(over_first)] * len(second)), dtype=np.float64)
 
 
 def check_rle(rle: Any) -> Rle:

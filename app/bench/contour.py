@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 
 from app.bench.timing import Row
-from app.commands.contour import read_json
+from app.commands.files import read_json
 from model.contour.coco import silhouettes_of
 from model.contour.methods import METHODS
 from model.contour.reconstruct import Reconstruction, reconstruct_silhouettes

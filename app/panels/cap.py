@@ -16,7 +16,7 @@ from app.review import compare_cap
 from app.scene import Scene
 from app.session import Session
 from app.workspace import Workspace
-from model.evaluate import Pair
+from model.evaluate.centres import Pair
 from model.geometry import Circle, Polygon
 from storage.documents import load_prediction, load_run
 from storage.journal import Entry, history

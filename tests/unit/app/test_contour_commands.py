@@ -8,13 +8,14 @@ import typer
 from typer.testing import CliRunner
 
 from app.bench.contour import measured_by_coverage, run
-from app.commands import contour
+from app.commands import contour, evaluate
+from app.commands.files import FileError
 from model.geometry import Circle, polygon_of_shape
 
 commands = typer.Typer()
 commands.command("contour")(contour.contour)
 commands.command("priors")(contour.priors)
-commands.command("centres")(contour.evaluate_centres)
+commands.command("centres")(evaluate.centres)
 
 
 def labels() -> dict:
@@ -58,7 +59,7 @@ def test_centres_found_from_masks_compare_with_the_truth_by_id(masks: Path, tmp_
 def test_a_file_that_holds_no_masks_is_named_and_nothing_is_written(tmp_path: Path, text: bytes):
     (tmp_path / "odd.json").write_bytes(text)
     failed = invoke("contour", tmp_path / "odd.json", "--out", tmp_path / "out.json")
-    assert isinstance(failed.exception, contour.FileError)
+    assert isinstance(failed.exception, FileError)
     assert "odd.json" in str(failed.exception)
     assert not (tmp_path / "out.json").exists()
 

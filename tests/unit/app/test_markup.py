@@ -13,7 +13,7 @@ from app.panels import cap, images, jobs, review, status
 from app.panels.cap import Background
 from app.panels.markup import element
 from app.session import Session
-from model.evaluate import Pair
+from model.evaluate.centres import Pair
 from model.geometry import Circle
 from storage.comparisons import Comparison, ComparisonRow
 from storage.images import ImagePage, ImageRow

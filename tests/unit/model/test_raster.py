@@ -23,6 +23,7 @@ from model.raster import (
     area_of_rle,
     check_outline,
     check_rle,
+    covered_matrix,
     iou_matrix,
     mask_of_outline,
     mask_of_rle,
@@ -30,7 +31,7 @@ from model.raster import (
     outline_of_rle,
     rle_of_mask,
     rle_of_outline,
-    share_inside,
+    shares_inside,
 )
 
 RING = np.ones((5, 5), np.uint8)
@@ -253,10 +254,20 @@ def test_the_share_inside_several_regions_counts_each_pixel_once() -> None:
     mask, left, wide = (np.zeros((1, 10), np.uint8) for _ in range(3))
     mask[0, 2:10], left[0, :4], wide[0, :6] = 1, 1, 1
 
-    share = share_inside(rle_of_mask(mask), [rle_of_mask(left), rle_of_mask(wide)])
+    shares = shares_inside([rle_of_mask(mask), rle_of_mask(left)], [rle_of_mask(left), rle_of_mask(wide)])
 
-    assert share == pytest.approx(4 / 8)
-    assert share_inside(rle_of_mask(mask), []) == 0
+    assert shares == pytest.approx([4 / 8, 1])
+    assert shares_inside([rle_of_mask(mask)], []).tolist() == [0]
+    assert shares_inside([], [rle_of_mask(left)]).shape == (0,)
+
+
+def test_what_is_covered_is_a_share_of_the_first_masks() -> None:
+    short, long, empty = (np.zeros((1, 10), np.uint8) for _ in range(3))
+    short[0, :4], long[0, 3:] = 1, 1
+
+    shares = covered_matrix([rle_of_mask(m) for m in (short, long, empty)], [rle_of_mask(long)])
+
+    assert shares[:, 0] == pytest.approx([1 / 4, 1, 0])
 
 
 def test_parts_that_overlap_are_united() -> None:

@@ -13,17 +13,11 @@ from typing import Any, Literal
 
 import numpy as np
 from msgspec import Struct, to_builtins
-from numpy.typing import NDArray
 
 from model.documents import CapRecord, pages_of
-from model.errors import FairyringError
+from model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_overlap, unmatched_in_ignored
 from model.geometry import Centre
-from model.raster import Rle, iou_matrix, share_inside
-
-LEAST_IOU = 0.5
-"""From here on a prediction is the truth's partner."""
-IGNORED_SHARE = 0.5
-"""An unmatched prediction with this much of its area in ignored regions counts neither way."""
+from model.raster import iou_matrix
 
 
 class CentreError(Struct, frozen=True, kw_only=True):
@@ -108,21 +102,17 @@ def compare(
     predictions do overlap, the best one gets the cap. Ignored truths take no partner.
     """
     real = [index for index, truth in enumerate(truths) if not truth.ignored]
-    iou = iou_matrix([_mask(truths[index]) for index in real], [_mask(cap) for cap in predictions])
+    iou = iou_matrix([mask_of(truths[index]) for index in real], [mask_of(cap) for cap in predictions])
     pairs = [
         _pair(truths, predictions, real[row], column, iou=float(iou[row, column]), size=(width, height))
-        for row, column in _one_to_one(iou)
+        for row, column in pairs_by_overlap(iou, least=LEAST_IOU)
     ]
     found, used = {pair.truth for pair in pairs}, {pair.prediction for pair in pairs}
-    ignored = [_mask(truth) for truth in truths if truth.ignored]
+    neither_way = unmatched_in_ignored(truths, predictions, matched=used)
     return Comparison(
         pairs=pairs,
         missed=[index for index in real if index not in found],
-        extra=[
-            index
-            for index, cap in enumerate(predictions)
-            if index not in used and share_inside(_mask(cap), ignored) < IGNORED_SHARE
-        ],
+        extra=[index for index in range(len(predictions)) if index not in used | neither_way],
     )
 
 
@@ -167,7 +157,7 @@ def evaluate_centres(predicted: Any, truth: Any, *, by: Literal["iou", "id"] = "
     segmentation. A cap whose prediction has no centre (``contour`` refused it) counts as missed. Raises
     FairyringError for what is not such a document.
     """
-    pages = pages_of(predicted, truth, with_masks=by == "iou")
+    pages = pages_of(predicted, truth, masks=by == "iou", centres=True)
     pair_up = compare if by == "iou" else compare_by_id
     compared = [
         _refused_as_missed(
@@ -216,26 +206,6 @@ def _pair(
     if cap.centre and guess.centre:
         error = centre_error(guess.centre, cap.centre, width=size[0], height=size[1], diameter=cap.diameter)
     return Pair(truth=truth, prediction=prediction, iou=iou, error=error)
-
-
-def _one_to_one(iou: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """(row, column) pairs in order of falling IoU, each row and column once."""
-    rows, columns = np.nonzero(iou >= LEAST_IOU)
-    order = np.argsort(-iou[rows, columns], kind="stable")
-    pairs: list[tuple[int, int]] = []
-    free_rows, free_columns = set(rows.tolist()), set(columns.tolist())
-    for row, column in zip(rows[order].tolist(), columns[order].tolist(), strict=True):
-        if row in free_rows and column in free_columns:
-            pairs.append((row, column))
-            free_rows.remove(row)
-            free_columns.remove(column)
-    return pairs
-
-
-def _mask(cap: CapRecord) -> Rle:
-    if cap.rle is None:
-        raise FairyringError("Caps without masks can only be paired by id.")
-    return cap.rle
 
 
 def _spread(figures: Sequence[float]) -> Spread:

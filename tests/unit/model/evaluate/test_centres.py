@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from model.documents import CapRecord, DocumentError
 from model.errors import FairyringError
-from model.evaluate import centre_error, compare, evaluate_centres, summarise
+from model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
 from model.geometry import Circle, polygon_of_shape
 from model.raster import rle_of_mask
 

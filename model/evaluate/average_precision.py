@@ -1,0 +1,95 @@
+"""COCO's average precision and recall of masks, by faster-coco-eval. All caps are one class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import faster_coco_eval
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from model.documents import CapRecord, Page
+from model.evaluate.matching import mask_of
+from model.raster import area_of_rle
+
+MAX_DETECTIONS = (1, 10, 300)
+"""Best predictions of an image that count; AP and AR are of the last. A bed holds more than COCO's 100."""
+FAR = 1e10
+"""COCO's upper end of areas, px²."""
+
+
+class AveragePrecision(Struct, frozen=True, kw_only=True):
+    """Fractions of 1; None where the truth has no cap to find."""
+
+    ap: float | None
+    """Mean over IoU .5, .55, … .95."""
+    ap50: float | None
+    ap75: float | None
+    ar: float | None
+    """Recall of all counted predictions, mean over the same IoUs."""
+    ap_by_size: tuple[float | None, ...]
+    """Of COCO's small, medium and large visible areas; empty where not asked for."""
+
+
+def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> AveragePrecision:
+    """Of the predictions in these images. Ignored caps go in as crowds, sized by their masks."""
+    document, results = coco_of_pages(pages)
+    evaluation: Any = faster_coco_eval.COCOeval_faster(
+        faster_coco_eval.COCO(document),
+        faster_coco_eval.COCO({**document, "annotations": results}),
+        iouType="segm",
+        separate_eval=True,
+    )
+    evaluation.params.maxDets = list(MAX_DETECTIONS)
+    if not by_size:
+        evaluation.params.areaRng, evaluation.params.areaRngLbl = [[0, FAR]], ["all"]
+    evaluation.evaluate()
+    evaluation.accumulate()
+    # IoUs, recalls, classes, areas, detections; and the same without recalls. -1 where there is no truth.
+    precision: NDArray[np.float64] = evaluation.eval["precision"][:, :, 0, :, -1]
+    recall: NDArray[np.float64] = evaluation.eval["recall"][:, 0, :, -1]
+    return AveragePrecision(
+        ap=_mean(precision[:, :, 0]),
+        ap50=_mean(precision[0, :, 0]),
+        ap75=_mean(precision[5, :, 0]),
+        ar=_mean(recall[:, 0]),
+        ap_by_size=tuple(_mean(precision[:, :, area]) for area in range(1, precision.shape[2])),
+    )
+
+
+def coco_of_pages(pages: Sequence[Page]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+    """A plain COCO document of the truth and the annotations of the predictions, numbered from 1."""
+    document = {
+        "images": [
+            {"id": number, "file_name": page.file_name, "width": page.width, "height": page.height}
+            for number, page in enumerate(pages, start=1)
+        ],
+        "annotations": list(_annotations([page.truths for page in pages], predicted=False)),
+        "categories": [{"id": 1, "name": "mushroom"}],
+    }
+    return document, list(_annotations([page.predictions for page in pages], predicted=True))
+
+
+def _annotations(images: list[list[CapRecord]], *, predicted: bool) -> Iterator[dict[str, Any]]:
+    number = 0
+    for image, caps in enumerate(images, start=1):
+        for cap in caps:
+            # COCO's matching takes the id 0 for "none".
+            number += 1
+            rle = mask_of(cap)
+            yield {
+                "id": number,
+                "image_id": image,
+                "category_id": 1,
+                "segmentation": rle,
+                "area": area_of_rle(rle),
+                "iscrowd": int(cap.ignored and not predicted),
+                **({"score": cap.score} if predicted else {}),
+            }
+
+
+def _mean(figures: NDArray[np.float64]) -> float | None:
+    known = figures[figures > -1]
+    return float(known.mean()) if known.size else None

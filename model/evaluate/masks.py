@@ -1,0 +1,213 @@
+"""How good predicted masks are: average precision, precision and recall, and the success rate of caps.
+
+All figures are fractions of 1, and None where there was nothing to count. Every cap that is not ignored
+counts in AP, AR, P and R, whatever its size; S50, S75 and S50_strict are of caps from 30 px on, as the paper
+misses smaller ones by design, and S50_small is of the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from msgspec import Struct, to_builtins
+
+from model.documents import Page, pages_of
+from model.errors import FairyringError
+from model.evaluate.average_precision import average_precision
+from model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, joined, outcomes_of_page
+
+SMALL_PX = 30.0
+"""Diameter below which a cap counts in S50_small alone."""
+MEDIUM_AREA, LARGE_AREA = 32.0**2, 96.0**2
+"""Visible pixels from which COCO calls a thing medium or large."""
+
+CAPITALS = {"ap": "AP", "ap50": "AP50", "ap75": "AP75", "ar": "AR", "p": "P", "r": "R", "f1": "F1"} | {
+    f"s{rest}": f"S{rest}" for rest in ("50", "75", "50_strict", "50_small")
+}
+"""Keys as they are written, which are those of the literature."""
+
+
+class GroupScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
+    """Of a part of the caps."""
+
+    ap: float | None
+    """Of the group's images; of a size, COCO's, which counts the caps under 30 px too."""
+    s50: float | None
+    s75: float | None
+    s50_strict: float | None
+    count: int
+    """Caps that the success rates are shares of."""
+
+
+class BestF1(Struct, frozen=True, kw_only=True, rename=CAPITALS):
+    """Where the harmonic mean of precision and recall at IoU .5 is highest."""
+
+    f1: float | None
+    score: float | None
+    """Predictions from this score on."""
+    p: float | None
+    r: float | None
+
+
+class Counts(Struct, frozen=True, kw_only=True):
+    """What the figures are of."""
+
+    images: int
+    truths: int
+    """Not ignored; of all sizes."""
+    small: int
+    """Of these, under 30 px."""
+    ignored: int
+    predictions: int
+    """Of all scores. What follows is of scores ≥ .5, at IoU ≥ .5."""
+    matched: int
+    missed: int
+    extra: int
+    dropped: int
+    """Unmatched in ignored regions."""
+
+
+class MaskScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
+    """The figures of ``fairyring evaluate masks``."""
+
+    ap: float | None
+    ap50: float | None
+    ap75: float | None
+    ar: float | None
+    p: float | None
+    """Matched over matched and extra predictions of score ≥ .5, at IoU .5."""
+    r: float | None
+    """Matched true caps over all, the same way."""
+    s50: float | None
+    """Share of caps with a partner of score ≥ .5 at IoU ≥ .5, one to one."""
+    s75: float | None
+    s50_strict: float | None
+    """The same without duplicates and without caps joined to others: ``Outcomes.alone``."""
+    s50_small: float | None
+    """S50 of the caps under 30 px (``Outcomes.diameter``)."""
+    best_f1: BestF1
+    score: float = LEAST_SCORE
+    """From which predictions count in P, R and the success rates."""
+    counts: Counts
+    groups: dict[str, dict[str, GroupScores]]
+    """By ``light`` and ``form`` (of images that state them), and by ``size``: s, m and l, visible areas below
+    32² px, below 96² px and from there on, of caps from 30 px on; and ``under_30_px``."""
+
+
+def evaluate_masks(predicted: Any, truth: Any) -> dict[str, Any]:
+    """The figures of ``fairyring evaluate masks`` for two COCO documents or result lists.
+
+    Only the truth's images count. Images are paired as by ``pages_of``. Raises FairyringError for what is
+    not such a document.
+    """
+    return to_builtins(score_masks(pages_of(predicted, truth, masks=True, centres=False)))
+
+
+def score_masks(pages: Sequence[Page]) -> MaskScores:
+    """The same for images in memory, at least one; of their caps masks, scores, diameters and flags are read.
+
+    Raises FairyringError for no image, scores that are not finite and caps without masks.
+    """
+    if not pages:
+        raise FairyringError("There is no image to evaluate; the truth must list at least one.")
+    by_page = [outcomes_of_page(page) for page in pages]
+    everything, precision = joined(by_page), average_precision(pages, by_size=True)
+    tall = everything.diameter >= SMALL_PX
+    overall = _group(everything, tall, ap=precision.ap)
+    counts = _counts(pages, everything)
+    return MaskScores(
+        ap=precision.ap,
+        ap50=precision.ap50,
+        ap75=precision.ap75,
+        ar=precision.ar,
+        p=_share(counts.matched, counts.matched + counts.extra),
+        r=_share(counts.matched, counts.truths),
+        s50=overall.s50,
+        s75=overall.s75,
+        s50_strict=overall.s50_strict,
+        s50_small=_group(everything, ~tall, ap=None).s50,
+        best_f1=_best_f1(everything),
+        counts=counts,
+        groups={
+            "light": _by(lambda page: page.light, pages, by_page),
+            "form": _by(lambda page: page.form, pages, by_page),
+            "size": _by_size(everything, tall, precision.ap_by_size),
+        },
+    )
+
+
+def _group(outcomes: Outcomes, chosen: Flags, *, ap: float | None) -> GroupScores:
+    count = int(chosen.sum())
+    return GroupScores(
+        ap=ap,
+        s50=_share(outcomes.found[chosen].sum(), count),
+        s75=_share(outcomes.closely[chosen].sum(), count),
+        s50_strict=_share(outcomes.alone[chosen].sum(), count),
+        count=count,
+    )
+
+
+def _by(
+    property_of: Callable[[Page], str | None], pages: Sequence[Page], by_page: Sequence[Outcomes]
+) -> dict[str, GroupScores]:
+    groups = {}
+    for value in sorted({value for page in pages if (value := property_of(page)) is not None}):
+        places = [place for place, page in enumerate(pages) if property_of(page) == value]
+        outcomes = joined([by_page[place] for place in places])
+        ap = average_precision([pages[place] for place in places]).ap
+        groups[value] = _group(outcomes, outcomes.diameter >= SMALL_PX, ap=ap)
+    return groups
+
+
+def _by_size(outcomes: Outcomes, tall: Flags, precision: tuple[float | None, ...]) -> dict[str, GroupScores]:
+    small, medium, large = precision
+    below_medium, below_large = outcomes.area < MEDIUM_AREA, outcomes.area < LARGE_AREA
+    return {
+        "s": _group(outcomes, tall & below_medium, ap=small),
+        "m": _group(outcomes, tall & below_large & ~below_medium, ap=medium),
+        "l": _group(outcomes, tall & ~below_large, ap=large),
+        "under_30_px": _group(outcomes, ~tall, ap=None),
+    }
+
+
+def _counts(pages: Sequence[Page], outcomes: Outcomes) -> Counts:
+    firm = outcomes.score >= LEAST_SCORE
+    matched, truths = int((outcomes.right & firm).sum()), len(outcomes.found)
+    return Counts(
+        images=len(pages),
+        truths=truths,
+        small=int((outcomes.diameter < SMALL_PX).sum()),
+        ignored=sum(cap.ignored for page in pages for cap in page.truths),
+        predictions=len(outcomes.score),
+        matched=matched,
+        missed=truths - matched,
+        extra=int((firm & ~outcomes.right & ~outcomes.dropped).sum()),
+        dropped=int((firm & outcomes.dropped).sum()),
+    )
+
+
+def _best_f1(outcomes: Outcomes) -> BestF1:
+    """Over all scores that occur; the highest of those that are equally good."""
+    counted = ~outcomes.dropped
+    order = np.argsort(-outcomes.score[counted], kind="stable")
+    scores, right = outcomes.score[counted][order], outcomes.right[counted][order]
+    truths = len(outcomes.found)
+    if not len(scores) or not truths:
+        return BestF1(f1=None, score=None, p=None, r=None)
+    # A threshold takes all predictions of one score or none.
+    last = np.flatnonzero(np.diff(scores, append=-np.inf))
+    hits, taken = np.cumsum(right)[last], last + 1
+    f1 = 2 * hits / (taken + truths)
+    best = int(f1.argmax())
+    return BestF1(
+        f1=float(f1[best]),
+        score=float(scores[last[best]]),
+        p=float(hits[best] / taken[best]),
+        r=float(hits[best] / truths),
+    )
+
+
+def _share(part: int, whole: int) -> float | None:
+    return float(part / whole) if whole else None
