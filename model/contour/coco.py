@@ -40,9 +40,10 @@ def contour_document(
     images = _images(document)
     groups: dict[Any, list[int]] = defaultdict(list)
     for index, annotation in enumerate(document["annotations"]):
-        if not isinstance(annotation, dict) or annotation.get("image_id") not in images:
+        image_id = annotation.get("image_id") if isinstance(annotation, dict) else None
+        if not isinstance(image_id, int | str) or image_id not in images:
             raise ContourError(f"Annotation {index + 1} does not belong to an image of the file.")
-        groups[annotation["image_id"]].append(index)
+        groups[image_id].append(index)
     annotations = list(document["annotations"])
     for done, (image_id, indices) in enumerate(groups.items()):
         width, height, name = images[image_id]
@@ -70,7 +71,8 @@ def _images(document: Any) -> dict[Any, tuple[int, int, str]]:
     images = {}
     for image in document["images"]:
         size = [image.get("width"), image.get("height")] if isinstance(image, dict) else []
-        if len(size) != 2 or any(type(side) is not int or side < 1 for side in size) or "id" not in image:
+        good = len(size) == 2 and all(type(side) is int and side >= 1 for side in size)
+        if not good or not isinstance(image.get("id"), int | str):
             raise ContourError("An image of the file lacks its id, its width or its height.")
         images[image["id"]] = (size[0], size[1], str(image.get("file_name", image["id"])))
     return images

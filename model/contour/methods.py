@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from model.contour.harmonic import Array, Outlines
 from model.contour.order import overlap_order
 from model.contour.paper import LITERAL, PAPER, Reading, reconstruct_contour
 from model.contour.priors import DEFAULT, Priors
-from model.contour.result import Arc, Reconstruction, ShapeKind
+from model.contour.result import Reconstruction, ShapeKind
 from model.contour.silhouette import RIM_INSET, Silhouette, contours_of
 from model.contour.together import Together, fit_together
 from model.geometry import Circle, Ellipse, Points, canonical_ellipse
@@ -47,23 +47,35 @@ def by_map(scene: Scene, wanted: Sequence[int]) -> list[Reconstruction]:
     """The robust, prior-aware, occlusion-aware ellipse."""
     together = fit_together(scene.caps, scene.priors, width=scene.width, height=scene.height)
     rank, confidence = overlap_order(together.meetings, caps=len(scene.caps))
-    kinds, degrees, sd = kinds_of(together), 360 * together.coverage, together.centre_sd
-    residual = _root_mean_square(together.fit.residual, where=kinds == 0)
-    return [
-        replace(
-            _from_fit(together, cap, arcs=arcs_of(together, cap, kinds), degrees=degrees[cap], sd=sd[cap]),
-            residual=float(residual[cap]),
-            order=int(rank[cap]),
-            order_confidence=float(confidence[cap]),
-        )
-        for cap in wanted
-    ]
+    kinds = kinds_of(together)
+    known = _Known(
+        kinds=kinds,
+        degrees=360 * together.coverage,
+        sd=together.centre_sd,
+        residual=_root_mean_square(together.fit.residual, where=kinds == 0),
+        rank=rank,
+        confidence=confidence,
+    )
+    return [_from_fit(together, known, cap) for cap in wanted]
 
 
-def _from_fit(
-    together: Together, cap: int, *, arcs: tuple[Arc, ...], degrees: float, sd: Array
-) -> Reconstruction:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Known:
+    """What there is to say of n caps besides their outlines, as in `Reconstruction`."""
+
+    kinds: NDArray[np.int_]
+    """As `kinds_of` gives them."""
+    degrees: Array
+    sd: Array
+    residual: Array
+    rank: NDArray[np.int_]
+    confidence: Array
+
+
+def _from_fit(together: Together, known: _Known, cap: int) -> Reconstruction:
     whole, guard = _guarded(together, cap)
+    arcs = arcs_of(together, cap, known.kinds)
+    degrees, sd = float(known.degrees[cap]), known.sd[cap]
     if guard is not None:
         sd = np.maximum(sd, GUARDED_SD * mean_radius(whole))
     lost = sum(arc.kind != "visible" for arc in arcs)
@@ -76,8 +88,11 @@ def _from_fit(
         shape=shape,
         why=f"{shape}: {degrees:.0f}° of the rim in sight{arcs_lost}; {guard or 'most probable ellipse'}",
         arcs=arcs,
-        coverage_deg=float(degrees),
+        coverage_deg=degrees,
+        residual=float(known.residual[cap]),
         proposal="ellipse" if degrees >= ELLIPSE_FROM_DEG else "circle",
+        order=int(known.rank[cap]),
+        order_confidence=float(known.confidence[cap]),
     )
 
 
@@ -137,7 +152,7 @@ def _one_by_one(fit: Callable[[Points, float], Reconstruction]) -> Method:
 
     def method(scene: Scene, wanted: Sequence[int]) -> list[Reconstruction]:
         caps = [scene.caps[cap] for cap in wanted]
-        return [fit(contours_of(cap)[0], float(cap.mask.sum())) for cap in caps]
+        return [fit(contours_of(cap, least=1)[0], float(cap.mask.sum())) for cap in caps]
 
     return method
 

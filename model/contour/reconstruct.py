@@ -100,6 +100,8 @@ def _box(cap: Outline) -> tuple[float, float, float, float]:
 
 def _renumbered(found: Reconstruction, names: Sequence[int]) -> Reconstruction:
     """The same with neighbours named as the caller counts them."""
+    if all(arc.neighbour is None or names[arc.neighbour] == arc.neighbour for arc in found.arcs):
+        return found
     arcs = tuple(
         arc if arc.neighbour is None else replace(arc, neighbour=names[arc.neighbour]) for arc in found.arcs
     )

@@ -53,8 +53,7 @@ def rims_of(caps: Sequence[Silhouette]) -> Rims:
 
 
 def _whole_contour(cap: Silhouette) -> Points:
-    parts = contours_of(cap)
-    return np.concatenate([part for part in parts if len(part) >= LEAST_PART * len(parts[0])])
+    return np.concatenate(contours_of(cap, least=LEAST_PART))
 
 
 def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:

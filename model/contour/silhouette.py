@@ -7,6 +7,7 @@ that pixel's centre lies, index + 0.5. The true edge runs a little outside it: s
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 from math import ceil, floor, sqrt
 
 import cv2
@@ -55,8 +56,11 @@ def silhouette_of_outline(outline: Outline, *, width: int, height: int) -> Silho
     return Silhouette(mask_of_outline(local, height=bottom - top, width=right - left), left, top)
 
 
-def contours_of(silhouette: Silhouette) -> list[Points]:
-    """The outer contours of all parts, the longest first, one point a contour pixel; holes are ignored."""
+def contours_of(silhouette: Silhouette, *, least: float = 0) -> list[Points]:
+    """The outer contours of all parts, the longest first, one point a contour pixel; holes are ignored.
+
+    Parts with a contour shorter than ``least`` times the longest are left out: a torn mask has thousands.
+    """
     if not silhouette.mask.any():
         return []
     found, _ = cv2.findContours(
@@ -65,5 +69,6 @@ def contours_of(silhouette: Silhouette) -> list[Points]:
         cv2.CHAIN_APPROX_NONE,
         offset=(silhouette.left, silhouette.top),
     )
-    contours = [centres_of_pixels(contour) for contour in found]
-    return sorted(contours, key=len, reverse=True)
+    longest_first = sorted(found, key=len, reverse=True)
+    worth_it = takewhile(lambda contour: len(contour) >= least * len(longest_first[0]), longest_first)
+    return [centres_of_pixels(contour) for contour in worth_it]

@@ -101,3 +101,23 @@ def test_a_crowd_is_not_a_cap():
     (found,) = contour_document(given)["annotations"]
     assert found["center"] is None
     assert "crowd" in found["refusal"]
+
+
+@pytest.mark.parametrize("wrong", [[1], {}, None, 1.5])
+def test_an_id_that_is_neither_a_number_nor_a_text_is_refused(wrong: object):
+    of_image, of_annotation = document(), document()
+    of_image["images"][0]["id"] = of_image["annotations"][0]["image_id"] = wrong
+    of_annotation["annotations"][0]["image_id"] = wrong
+    for given in (of_image, of_annotation):
+        with pytest.raises(ContourError, match=r"lacks its id|does not belong"):
+            contour_document(given, method="enclosing")
+
+
+def test_a_mask_torn_into_thousands_of_crumbs_is_judged_by_its_one_large_part():
+    mask = mask_of_outline(DISC, height=120, width=160)
+    mask[::2, 110::2] = 1
+    given = document()
+    given["annotations"] = [{"id": 1, "image_id": 7, "segmentation": rle_of_mask(mask)}]
+    for method in ("map", "paper", "enclosing"):
+        (found,) = contour_document(given, method=method)["annotations"]
+        assert found["center"] == pytest.approx([80, 60], abs=0.25)
