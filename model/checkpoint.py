@@ -1,0 +1,38 @@
+"""All that a training run needs to go on as if it had never stopped."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from model.errors import FairyringError
+
+CHECKPOINT = "last.pt"
+
+
+class CheckpointError(FairyringError):
+    """A checkpoint that training cannot go on from."""
+
+
+def save_checkpoint(folder: Path, state: dict[str, Any]) -> None:
+    """Writes beside and renames: a kill leaves the one before. Raises CheckpointError."""
+    beside = folder / (CHECKPOINT + ".part")
+    try:
+        torch.save(state, beside)
+        beside.replace(folder / CHECKPOINT)
+    except (OSError, RuntimeError) as error:
+        raise CheckpointError(f"{folder / CHECKPOINT} cannot be written: {error}.") from error
+
+
+def load_checkpoint(folder: Path, *, device: torch.device) -> dict[str, Any]:
+    """What ``save_checkpoint`` wrote: tensors and plain values only. Raises CheckpointError."""
+    path = folder / CHECKPOINT
+    try:
+        return torch.load(path, map_location=device, weights_only=True)
+    except FileNotFoundError:
+        raise CheckpointError(f"There is nothing to resume in {folder}; start without --resume.") from None
+    except (OSError, RuntimeError, EOFError, pickle.UnpicklingError) as error:
+        raise CheckpointError(f"{path} is damaged; start again without --resume.") from error

@@ -1,0 +1,80 @@
+"""What a network is made of: everything that must be known to build it and to load weights into it."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from msgspec import Struct
+
+Backbone = Literal["lite0", "r18", "r34", "r50"]
+PointRend = Literal["instance", "semantic", "off"]
+
+LEVELS = 5
+FRAME = 1280
+"""Photo pixels that the paper's images are wide: grids count cells along it, coordinates run over it."""
+
+LIGHT_RANGES = ((1, 56), (28, 112), (56, 224), (112, 448), (224, 896))
+FULL_RANGES = ((1, 96), (48, 192), (96, 384), (192, 768), (384, 2048))
+
+
+class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The default is ``lite0``: light enough for a CPU."""
+
+    backbone: Backbone = "lite0"
+    reduction: int = 2
+    """Photo pixels a side of one network-input pixel; PointRend draws the edge in photo pixels all the same."""
+    fpn_channels: int = 128
+    head_channels: int = 128
+    head_convs: int = 2
+    kernel_channels: int = 128
+    """E: weights of a dynamic 1×1 convolution, channels of the mask feature."""
+    grids: tuple[int, int, int, int, int] = (80, 64, 32, 16, 12)
+    """S of P2…P6: cells along FRAME photo pixels. Cells are square, so a photo of another size or shape, or
+    a crop, has as many as fit."""
+    scale_ranges: tuple[tuple[int, int], ...] = LIGHT_RANGES
+    """√(box area) of the caps each level learns, network-input pixels, inclusive."""
+    point_rend: PointRend = "instance"
+    """Reading A refines each instance, reading B the mask feature; ``off`` is SOLOv2."""
+    point_channels: int = 128
+    detail_channels: int = 16
+    """Of the photo itself at stride 2, which the points see besides P2 and P4; 0 for the paper's points."""
+
+    def cell(self, level: int) -> float:
+        """Side of a cell of this level in photo pixels."""
+        return FRAME / self.grids[level]
+
+    @property
+    def mask_stride(self) -> int:
+        """Photo pixels a side of one cell of the mask feature."""
+        return 4 * self.reduction
+
+    @property
+    def multiple(self) -> int:
+        """Sides of an input are multiples of this many photo pixels."""
+        return 32 * self.reduction
+
+
+SIZES: dict[str, NetworkConfig] = {
+    "lite0": NetworkConfig(),
+    "r18": NetworkConfig(
+        backbone="r18",
+        reduction=1,
+        head_channels=256,
+        grids=(40, 36, 24, 16, 12),
+        point_channels=256,
+        detail_channels=0,
+    ),
+    "r50": NetworkConfig(
+        backbone="r50",
+        reduction=1,
+        fpn_channels=256,
+        head_channels=512,
+        head_convs=4,
+        kernel_channels=256,
+        grids=(40, 36, 24, 16, 12),
+        scale_ranges=FULL_RANGES,
+        point_channels=256,
+        detail_channels=0,
+    ),
+}
+"""By name: the default, and the paper's network with a small and with its own backbone."""

@@ -1,0 +1,169 @@
+"""The whole loss (Eq. 1, and the points'): what is learnt from a batch of inputs and their caps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import torch
+from torch import Tensor
+
+from model.network.dynamic_conv import mask_logits
+from model.network.losses import DICE_WEIGHT, dice_loss, focal_loss, point_loss
+from model.network.point_sampling import sample_maps, training_points
+from model.network.pr_solov2 import Outputs, PRSOLOv2
+from model.network.targets import IGNORED
+
+POINTS = 196
+"""Drawn on each cap (PointRend's training default)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Caps:
+    """The caps of one input, as the losses need them."""
+
+    masks: Tensor
+    """(n, H, W) uint8 at photo pixels: 1 on the visible cap."""
+    targets: Tensor
+    """(n, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
+    boxes: Tensor
+    """(n, 4) float: x, y, width, height of the visible mask, photo pixels."""
+    cells: list[Tensor]
+    """Of each level (rows, columns) int64: see ``model.network.targets``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Batch:
+    """B inputs of one size."""
+
+    photos: Tensor
+    """(B, 3, H, W) uint8, RGB."""
+    origins: Tensor
+    """(B, 2): see ``with_coordinates``."""
+    caps: list[Caps]
+
+    def to(self, device: torch.device) -> Batch:
+        """The same on another device."""
+        return Batch(
+            photos=self.photos.to(device),
+            origins=self.origins.to(device),
+            caps=[
+                Caps(
+                    masks=caps.masks.to(device),
+                    targets=caps.targets.to(device),
+                    boxes=caps.boxes.to(device),
+                    cells=[cells.to(device) for cells in caps.cells],
+                )
+                for caps in self.caps
+            ],
+        )
+
+
+class Losses(NamedTuple):
+    """Scalars; each is 0 where nothing of its kind is in the batch."""
+
+    category: Tensor
+    mask: Tensor
+    points: Tensor
+
+    @property
+    def total(self) -> Tensor:
+        """Eq. 1 with λ = 3, and the points' loss, which Eq. 1 leaves out, at weight 1."""
+        return self.category + DICE_WEIGHT * self.mask + self.points
+
+
+class _Positives(NamedTuple):
+    """The P cells of a batch that hold a cap."""
+
+    kernels: Tensor
+    """(P, E)."""
+    images: Tensor
+    """(P,), rising."""
+    caps: Tensor
+    """(P,): place of the cap among all caps of the batch."""
+
+
+def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
+    """Of one forward pass over ``batch.photos``."""
+    positives = _positives(outputs, batch)
+    category = _category_loss(outputs, batch) / (len(positives.caps) + 1)
+    targets = torch.cat([caps.targets for caps in batch.caps])
+    logits = mask_logits(outputs.feature, positives.kernels, positives.images)
+    nothing = outputs.feature.sum() * 0
+    mask = dice_loss(logits, targets[positives.caps]).mean() if len(logits) else nothing
+    points = nothing
+    if outputs.point_maps is not None and len(logits):
+        points = _instance_points(network, outputs, batch, positives, logits)
+    if outputs.sharp is not None:
+        points = _semantic_points(outputs, batch)
+    return Losses(category, mask, points)
+
+
+def _positives(outputs: Outputs, batch: Batch) -> _Positives:
+    kernels, images, places = [], [], []
+    first = 0
+    for image, caps in enumerate(batch.caps):
+        for level, cells in enumerate(caps.cells):
+            held = cells >= 0
+            kernels.append(outputs.kernels[level][image].permute(1, 2, 0)[held])
+            places.append(cells[held] + first)
+            images.append(torch.full_like(places[-1], image))
+        first += len(caps.boxes)
+    return _Positives(torch.cat(kernels), torch.cat(images), torch.cat(places))
+
+
+def _category_loss(outputs: Outputs, batch: Batch) -> Tensor:
+    logits = torch.cat([level.flatten() for level in outputs.categories])
+    cells = torch.cat(
+        [
+            torch.stack([caps.cells[level] for caps in batch.caps]).flatten()
+            for level in range(len(outputs.categories))
+        ]
+    )
+    counts = cells != IGNORED
+    return focal_loss(logits[counts].float(), cells[counts] >= 0)
+
+
+def _instance_points(
+    network: PRSOLOv2, outputs: Outputs, batch: Batch, positives: _Positives, logits: Tensor
+) -> Tensor:
+    """Reading A, on one random positive cell a cap."""
+    assert network.point_head is not None
+    assert outputs.point_maps is not None
+    device = logits.device
+    shuffled = torch.randperm(len(logits), device=device)
+    of_cap = torch.full((sum(len(caps.boxes) for caps in batch.caps),), -1, device=device)
+    of_cap[positives.caps[shuffled]] = shuffled
+    caps = (of_cap >= 0).nonzero().squeeze(1)
+    chosen = of_cap[caps]
+    boxes = torch.cat([image.boxes for image in batch.caps])[caps]
+    coarse, stride = logits[chosen], network.config.mask_stride
+    with torch.no_grad():
+        points = training_points(coarse, boxes, count=POINTS, stride=stride).reshape(-1, 2)
+    each = torch.arange(len(caps), device=device).repeat_interleave(POINTS)
+    said = network.point_head(
+        outputs.point_maps,
+        positives.kernels[chosen][each],
+        positives.images[chosen][each],
+        boxes[each],
+        sample_maps(coarse[:, None], each, points, stride=stride)[:, 0],
+        points,
+    )
+    masks = torch.cat([image.masks for image in batch.caps])
+    true = sample_maps(masks[:, None], caps[each], points, stride=1)[:, 0]
+    return point_loss(said, true)
+
+
+def _semantic_points(outputs: Outputs, batch: Batch) -> Tensor:
+    """Reading B: whether a point is on any cap."""
+    assert outputs.sharp is not None
+    any_cap = torch.stack(
+        [
+            caps.masks.amax(0) if len(caps.masks) else batch.photos.new_zeros(batch.photos.shape[-2:])
+            for caps in batch.caps
+        ]
+    )
+    count = outputs.sharp.points.shape[1]
+    owners = torch.arange(len(any_cap), device=any_cap.device).repeat_interleave(count)
+    true = sample_maps(any_cap[:, None], owners, outputs.sharp.points.reshape(-1, 2), stride=1)[:, 0]
+    return point_loss(outputs.sharp.logits.flatten(), true)

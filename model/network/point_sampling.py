@@ -1,0 +1,48 @@
+"""Values of feature maps at points between their pixels, and the choice of points that need a second look."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+OVERSAMPLING = 3
+UNCERTAIN_SHARE = 0.75
+
+
+def sample_maps(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) -> Tensor:
+    """Bilinear: (M, C, h, w), (P,) map of each point, (P, 2) x, y in photo pixels → (P, C).
+
+    A map's pixel (i, j) has its middle at ((j + 0.5) · stride, (i + 0.5) · stride); beyond the outermost middles
+    their values hold on.
+    """
+    count, channels, height, width = maps.shape
+    rows = maps.permute(0, 2, 3, 1).reshape(count * height * width, channels)
+    x = (points[:, 0] / stride - 0.5).clamp(0, width - 1)
+    y = (points[:, 1] / stride - 0.5).clamp(0, height - 1)
+    left, top = x.floor().clamp(max=max(width - 2, 0)), y.floor().clamp(max=max(height - 2, 0))
+    across, down = (x - left)[:, None], (y - top)[:, None]
+    first = (owners * height + top.long()) * width + left.long()
+    right, below = min(1, width - 1), width * min(1, height - 1)
+    corners = (rows.index_select(0, first + step) for step in (0, right, below, below + right))
+    upper_left, upper_right, lower_left, lower_right = corners
+    upper = torch.lerp(upper_left.float(), upper_right.float(), across)
+    lower = torch.lerp(lower_left.float(), lower_right.float(), across)
+    return torch.lerp(upper, lower, down)
+
+
+def training_points(coarse: Tensor, boxes: Tensor, *, count: int, stride: float) -> Tensor:
+    """Points to train on, in each cap's box: (K, h, w) coarse logits, (K, 4) x, y, width, height → (K, count, 2).
+
+    PointRend (Kirillov et al., CVPR 2020): three times as many are drawn evenly, 75 % of the points are those of
+    them with the logit nearest 0, the rest are drawn evenly.
+    """
+    caps = len(boxes)
+    drawn = torch.rand(caps, OVERSAMPLING * count, 2, device=coarse.device)
+    drawn = boxes[:, None, :2] + drawn * boxes[:, None, 2:]
+    owners = torch.arange(caps, device=coarse.device).repeat_interleave(drawn.shape[1])
+    logits = sample_maps(coarse[:, None], owners, drawn.reshape(-1, 2), stride=stride)
+    uncertain = int(UNCERTAIN_SHARE * count)
+    order = logits.reshape(caps, -1).abs().topk(uncertain, dim=1, largest=False).indices
+    chosen = drawn.gather(1, order[..., None].expand(-1, -1, 2))
+    rest = torch.rand(caps, count - uncertain, 2, device=coarse.device)
+    return torch.cat([chosen, boxes[:, None, :2] + rest * boxes[:, None, 2:]], dim=1)

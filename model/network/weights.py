@@ -1,0 +1,115 @@
+"""Weights in files: safetensors of half precision, with what must be known to build the network again.
+
+A file is checked before it is believed: its header, the network it names, the shape of every tensor, and the digest
+over all of them. Nothing in it is ever run.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save_file
+from torch import Tensor
+
+from model.errors import FairyringError
+from model.network.config import NetworkConfig
+from model.network.pr_solov2 import PRSOLOv2
+
+FORMAT = "fairyring-pr-solov2-1"
+SHIPPED = Path(__file__).parent.parent / "weights" / "lite0.safetensors"
+
+
+class WeightsError(FairyringError):
+    """Weights that cannot be used; the sentence names the file."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weights:
+    """A network as it was read from a file."""
+
+    network: PRSOLOv2
+    """In evaluation mode, float32."""
+    digest: str
+    """SHA-256 over all tensors: what predictions are traced to."""
+    card: dict[str, Any] = field(default_factory=dict)
+    """How it was trained and what it reached."""
+
+
+def save_weights(
+    path: Path, state: Mapping[str, Tensor], config: NetworkConfig, *, card: dict[str, Any]
+) -> str:
+    """Writes a network's state beside ``path`` and renames, and returns the digest.
+
+    Floating tensors are stored in half precision; a value it cannot hold raises WeightsError.
+    """
+    stored = {key: _halved(key, value) for key, value in state.items()}
+    digest = digest_of(stored)
+    metadata = {
+        "format": FORMAT,
+        "network": msgspec.json.encode(config).decode(),
+        "digest": digest,
+        "card": msgspec.json.encode(card).decode(),
+    }
+    beside = path.with_name(path.name + ".part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        save_file(stored, beside, metadata=metadata)
+        beside.replace(path)
+    except (OSError, SafetensorError) as error:
+        raise WeightsError(f"{path} cannot be written: {error}.") from error
+    return digest
+
+
+def load_weights(path: Path) -> Weights:
+    """A network with the weights of a file. Raises WeightsError."""
+    try:
+        with safe_open(path, framework="pt") as file:
+            metadata = file.metadata() or {}
+            state = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118
+    except FileNotFoundError:
+        raise WeightsError(f"There are no weights at {path}; check the path.") from None
+    except (OSError, SafetensorError) as error:
+        raise WeightsError(
+            f"{path} is not a whole safetensors file ({error}); copy it again from where it came."
+        ) from error
+    if metadata.get("format") != FORMAT:
+        raise WeightsError(f"{path} holds no network of Fairyring's; give weights that fairyring train made.")
+    if metadata.get("digest") != digest_of(state):
+        raise WeightsError(f"{path} has been changed or damaged; copy it again from where it came.")
+    try:
+        config = msgspec.json.decode(metadata["network"], type=NetworkConfig)
+        card = msgspec.json.decode(metadata.get("card", "{}"), type=dict[str, Any])
+        network = PRSOLOv2(config)
+        network.load_state_dict({key: value.float() for key, value in state.items()})
+    except (msgspec.MsgspecError, KeyError, RuntimeError, ValueError, TypeError) as error:
+        raise WeightsError(
+            f"{path} holds another network than it says; it was made by another version of Fairyring."
+        ) from error
+    return Weights(network=network.eval(), digest=metadata["digest"], card=card)
+
+
+def digest_of(state: Mapping[str, Tensor]) -> str:
+    """SHA-256 over names, shapes and values of tensors, in the order of the names."""
+    digest = hashlib.sha256()
+    for key in sorted(state):
+        value = state[key].contiguous()
+        digest.update(f"{key}:{value.dtype}:{tuple(value.shape)};".encode())
+        digest.update(value.numpy().tobytes())
+    return digest.hexdigest()
+
+
+def _halved(key: str, value: Tensor) -> Tensor:
+    value = value.detach().cpu()
+    if not value.is_floating_point():
+        return value.clone()
+    if not torch.isfinite(value.half()).all():
+        raise WeightsError(f"The tensor {key} holds values that are not finite; train with a lower rate.")
+    # Of its own memory and order: a channels-last tensor would be stored as a view.
+    return value.half().clone(memory_format=torch.contiguous_format)

@@ -1,0 +1,49 @@
+"""Outlines between the pixels: where the edge of a predicted cap runs by its logits."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from contourpy import FillType, contour_generator
+from numpy.typing import NDArray
+
+from model.geometry import Outline, Points, part_of_points, signed_area
+from model.tracing import join_holes
+
+TOLERANCE = 0.2
+"""How far an outline may lie from the level line, pixels: it is given fewer vertices."""
+LEAST_PART = 0.05
+"""Share of the largest part below which a part, or a hole, is left out."""
+MOST_LOGIT = 6.0
+"""Logits beyond are as sure: clipped, so that the line between two pixels is not drawn to the surer one."""
+
+
+def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -> Outline:
+    """(h, w) logits → the outline of where they are above 0; ``corner``: x, y of the first pixel.
+
+    Marching squares between the middles of pixels, the outside below 0. Empty where nothing is above 0.
+    """
+    padded = np.pad(np.clip(logits, -MOST_LOGIT, MOST_LOGIT), 1, constant_values=-MOST_LOGIT)
+    filled = contour_generator(z=padded, fill_type=FillType.OuterOffset).filled(0.0, np.inf)
+    loops = [
+        [points[first:last] for first, last in zip(ends, ends[1:], strict=False)]
+        for points, ends in zip(*filled, strict=True)
+    ]
+    areas = [abs(signed_area(rings[0])) for rings in loops]
+    outline = []
+    for rings, area in zip(loops, areas, strict=True):
+        if area < LEAST_PART * max(areas) or area < 1:
+            continue
+        holes = [ring for ring in rings[1:] if abs(signed_area(ring)) >= LEAST_PART * area]
+        simple = [_simplified(ring) for ring in (rings[0], *holes)]
+        if all(len(ring) >= 3 for ring in simple):
+            # The padding moved every index by 1, the middle of a pixel lies half a pixel in.
+            points = join_holes(simple[0], simple[1:]) + np.subtract(corner, 0.5)
+            outline.append(part_of_points(points.round(2)))
+    return outline
+
+
+def _simplified(ring: Points) -> Points:
+    """A closed level line with fewer vertices; its last one repeats the first."""
+    points = cv2.approxPolyDP(ring[:-1].astype(np.float32)[:, None], TOLERANCE, closed=True)
+    return points.reshape(-1, 2).astype(np.float64)

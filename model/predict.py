@@ -1,0 +1,133 @@
+"""From photos to the caps in them: the network's forward pass once a photo, then as many readings as are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from msgspec import Struct, field
+from numpy.typing import NDArray
+
+from model.errors import FairyringError
+from model.geometry import Outline
+from model.network.decode import DecodeConfig, decode
+from model.network.fold import fold_batch_norms
+from model.network.pr_solov2 import Outputs, PRSOLOv2
+from model.network.refine import draw
+from model.outlines import outline_of_logits
+from model.raster import Rle, rle_of_outline
+from model.settle import Window, settle
+from model.tiles import Tile, tiles_of
+
+
+class DeviceError(FairyringError):
+    """A device that this machine does not have."""
+
+
+class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How photos are read."""
+
+    decode: DecodeConfig = field(default_factory=DecodeConfig)
+    batch: int = 1
+    """Pieces of one size that go through the network together."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Detection:
+    """One cap as the network sees it."""
+
+    score: float
+    """0 to 1."""
+    outline: Outline
+    """Of what is visible, between the pixels."""
+    rle: Rle
+    """The pixels of the outline."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seen:
+    """A photo that went through the network."""
+
+    width: int
+    height: int
+    pieces: list[tuple[Tile, Outputs, int]]
+    """A piece of it, what the network said of a batch, and the piece's place in the batch."""
+
+
+class Predictor:
+    """A network made ready for photos on one device."""
+
+    def __init__(
+        self, network: PRSOLOv2, *, device: torch.device, settings: PredictConfig | None = None
+    ) -> None:
+        """Takes the network over: its batch norms are folded, and it is moved to the device."""
+        fold_batch_norms(network.eval())
+        self.network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
+        self.device = device
+        self.settings = settings or PredictConfig()
+
+    @torch.inference_mode()
+    def see(self, photos: Sequence[NDArray[np.uint8]]) -> list[Seen]:
+        """(height, width, 3) uint8 RGB photos → what the network says of each, ready for ``read``."""
+        seen = [Seen(width=photo.shape[1], height=photo.shape[0], pieces=[]) for photo in photos]
+        by_shape: dict[tuple[int, int], list[tuple[int, Tile]]] = {}
+        for nth, photo in enumerate(photos):
+            for tile in tiles_of(photo.shape[1], photo.shape[0]):
+                by_shape.setdefault(self._padded(tile), []).append((nth, tile))
+        for shape, jobs in by_shape.items():
+            for first in range(0, len(jobs), self.settings.batch):
+                batch = jobs[first : first + self.settings.batch]
+                inputs = np.zeros((len(batch), *shape, 3), np.uint8)
+                for place, (nth, tile) in enumerate(batch):
+                    inputs[place, : tile.height, : tile.width] = photos[nth][
+                        tile.y : tile.y + tile.height, tile.x : tile.x + tile.width
+                    ]
+                origins = torch.tensor([(-tile.width / 2, -tile.height / 2) for _, tile in batch])
+                pixels = torch.from_numpy(inputs).to(self.device).permute(0, 3, 1, 2)
+                outputs = self.network(pixels, origins.to(self.device))
+                for place, (nth, tile) in enumerate(batch):
+                    seen[nth].pieces.append((tile, outputs, place))
+        return seen
+
+    @torch.inference_mode()
+    def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
+        """The caps of a photo, in falling order of score."""
+        found = [
+            detection
+            for tile, outputs, place in seen.pieces
+            for detection in self._of_piece(seen, tile, outputs, place, settings or self.settings.decode)
+        ]
+        return sorted(found, key=lambda detection: -detection.score)
+
+    def detect(self, photo: NDArray[np.uint8]) -> list[Detection]:
+        """``see`` and ``read`` of one photo."""
+        return self.read(self.see([photo])[0])
+
+    def _padded(self, tile: Tile) -> tuple[int, int]:
+        multiple = self.network.config.multiple
+        return -(-tile.height // multiple) * multiple, -(-tile.width // multiple) * multiple
+
+    def _of_piece(
+        self, seen: Seen, tile: Tile, outputs: Outputs, place: int, settings: DecodeConfig
+    ) -> Iterator[Detection]:
+        instances = decode(outputs, place, self.network.config, settings)
+        drawn = draw(
+            self.network.point_head,
+            outputs.point_maps,
+            instances,
+            image=place,
+            mask_stride=self.network.config.mask_stride,
+        )
+        scores = instances.scores.tolist()
+        windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
+        settled = settle(windows, scores, width=tile.width, height=tile.height)
+        for score, window in zip(scores, settled, strict=True):
+            outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
+            if not outline:
+                continue
+            points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
+            if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist()):
+                rle = rle_of_outline(outline, height=seen.height, width=seen.width)
+                yield Detection(score=score, outline=outline, rle=rle)

@@ -1,0 +1,48 @@
+"""The processes that train together: one, or as many as ``torchrun`` started."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import torch
+from torch import distributed
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where this process stands among all."""
+
+    rank: int = 0
+    world: int = 1
+    device: torch.device = torch.device("cpu")
+
+    @property
+    def leads(self) -> bool:
+        """Whether it is the one that writes files and validates."""
+        return self.rank == 0
+
+    def wait(self) -> None:
+        """Until all have come this far."""
+        if self.world > 1:
+            distributed.barrier()
+
+
+@contextmanager
+def together(device: torch.device) -> Iterator[Place]:
+    """This process's place; with ``torchrun`` each gets a GPU of its own where ``device`` is one."""
+    world = int(os.environ.get("WORLD_SIZE", "1"))
+    if world == 1:
+        yield Place(device=device)
+        return
+    on_gpu = device.type == "cuda"
+    if on_gpu:
+        device = torch.device("cuda", int(os.environ["LOCAL_RANK"]))
+        torch.cuda.set_device(device)
+    distributed.init_process_group("nccl" if on_gpu else "gloo")
+    try:
+        yield Place(rank=int(os.environ["RANK"]), world=world, device=device)
+    finally:
+        distributed.destroy_process_group()

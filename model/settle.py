@@ -1,0 +1,71 @@
+"""Whose pixel it is where two predicted caps claim the same: visible masks do not overlap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+CONFIDENT = 0.3
+"""Score from which an instance takes pixels from others."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Window:
+    """One instance's logits at photo pixels, (h, w) float32; its first pixel is column x, row y."""
+
+    x: int
+    y: int
+    logits: NDArray[np.float32]
+
+
+def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[Window]:
+    """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
+
+    Where two caps touch, the edge then runs where they are equally sure.
+    """
+    inside = [_cut(window, width=width, height=height) for window in windows]
+    first, second = np.zeros((2, height, width), np.float32)
+    owner = np.full((height, width), -1, np.int32)
+    for nth, (window, score) in enumerate(zip(inside, scores, strict=True)):
+        if score >= CONFIDENT:
+            _claim(window, nth, first, second, owner)
+    settled = []
+    for nth, window in enumerate(inside):
+        place = _place(window)
+        others = np.where(owner[place] == nth, second[place], first[place])
+        settled.append(replace(window, logits=window.logits - others))
+    return settled
+
+
+def _claim(
+    window: Window,
+    nth: int,
+    first: NDArray[np.float32],
+    second: NDArray[np.float32],
+    owner: NDArray[np.int32],
+) -> None:
+    """Enters an instance's logits among the largest and second largest of each pixel, none below 0."""
+    place = _place(window)
+    best, next_best = first[place], second[place]
+    wins = window.logits > best
+    np.copyto(next_best, np.maximum(next_best, np.where(wins, best, window.logits)))
+    np.copyto(best, window.logits, where=wins)
+    owner[place][wins] = nth
+
+
+def _place(window: Window) -> tuple[slice, slice]:
+    height, width = window.logits.shape
+    return slice(window.y, window.y + height), slice(window.x, window.x + width)
+
+
+def _cut(window: Window, *, width: int, height: int) -> Window:
+    left, top = min(max(0, -window.x), window.logits.shape[1]), min(max(0, -window.y), window.logits.shape[0])
+    right, bottom = max(left, width - window.x), max(top, height - window.y)
+    return Window(
+        x=min(max(0, window.x), width),
+        y=min(max(0, window.y), height),
+        logits=window.logits[top:bottom, left:right],
+    )

@@ -1,0 +1,46 @@
+"""Large photos in pieces that overlap: a cap is taken from the piece in whose own part it lies."""
+
+from __future__ import annotations
+
+from msgspec import Struct
+
+SIDE = 1280
+"""Photo pixels of a piece; what the network was trained to take in at once."""
+OVERLAP = 256
+"""Of two pieces; caps up to this diameter are never cut."""
+
+
+class Tile(Struct, frozen=True, kw_only=True):
+    """One piece: x, y, width, height; and the part of it whose caps are taken from it, in photo coordinates."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+    own: tuple[float, float, float, float]
+    """left, top, right, bottom. The own parts of all tiles fill the photo, edges going to the later one."""
+
+    def owns(self, x: float, y: float) -> bool:
+        """Whether a cap about this point is this tile's."""
+        left, top, right, bottom = self.own
+        return left <= x < right and top <= y < bottom
+
+
+def tiles_of(width: int, height: int) -> list[Tile]:
+    """The pieces of a photo, one where it is no larger than a piece."""
+    return [
+        Tile(x=x, y=y, width=w, height=h, own=(left, top, right, bottom))
+        for y, h, top, bottom in _spans(height)
+        for x, w, left, right in _spans(width)
+    ]
+
+
+def _spans(extent: int) -> list[tuple[int, int, float, float]]:
+    """First pixel, length, and the ends of the own part, of the pieces along one axis."""
+    if extent <= SIDE:
+        return [(0, extent, float("-inf"), float("inf"))]
+    count = -(-(extent - OVERLAP) // (SIDE - OVERLAP))
+    firsts = [round(nth * (extent - SIDE) / (count - 1)) for nth in range(count)]
+    seams = [(a + SIDE + b) / 2 for a, b in zip(firsts, firsts[1:], strict=False)]
+    edges = [float("-inf"), *seams, float("inf")]
+    return [(first, SIDE, edges[nth], edges[nth + 1]) for nth, first in enumerate(firsts)]

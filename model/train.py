@@ -1,0 +1,324 @@
+"""Training (sections 3 and 6.1): batches in, weights out, and every step of it kept so that it can go on after a kill.
+
+In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP, ``weights.safetensors``
+at the end (the best, or the last where nothing was validated), ``log.jsonl``, ``curves.png``, and ``run.json`` with
+the recipe and what the labels came from.
+"""
+
+from __future__ import annotations
+
+import math
+import shutil
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import torch
+from msgspec import Struct
+from torch import Tensor, nn
+from torch.nn.parallel import DistributedDataParallel
+from torch.optim.swa_utils import AveragedModel
+from torch.utils.data import DataLoader
+
+from model import train_log
+from model.checkpoint import load_checkpoint, save_checkpoint
+from model.data import Batches, Example, SampleConfig
+from model.errors import FairyringError
+from model.network.backbone import load_backbone
+from model.network.lite0 import imagenet_weights
+from model.network.objective import Batch, Losses, losses_of
+from model.network.pr_solov2 import PRSOLOv2
+from model.network.weights import save_weights
+from model.optimiser import average_of, freeze_stages, freeze_statistics, optimiser_of, rate_at, set_rate
+from model.processes import Place, together
+from model.recipe import Recipe
+from model.validate import validate
+
+BEST, FINAL, RUN = "best.safetensors", "weights.safetensors", "run.json"
+SEEDS = 1_000_003
+"""Apart from each other, the seeds of two runs' iterations do not meet."""
+
+
+class TrainError(FairyringError):
+    """Training that cannot go on; the sentence says what to change."""
+
+
+class Progress(Struct, frozen=True, kw_only=True):
+    """Where a run stands."""
+
+    iteration: int
+    """Finished ones."""
+    iterations: int
+    loss: float
+    what: str
+    """What is done now."""
+
+
+Report = Callable[[Progress], None]
+"""Called after every iteration; whatever it raises ends the run, which can be resumed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainResult:
+    """What a finished run left."""
+
+    weights: Path
+    figures: dict[str, Any]
+    """Of the best validation; empty where there was none."""
+
+
+@dataclass(kw_only=True)
+class _Run:
+    """What changes from iteration to iteration."""
+
+    network: PRSOLOv2
+    optimiser: torch.optim.Optimizer
+    average: AveragedModel | None
+    iteration: int = 0
+    best: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def kept(self) -> PRSOLOv2:
+        """The network whose weights count: the average where there is one."""
+        return self.network if self.average is None else self.average.module  # pyright: ignore
+
+    def state(self) -> dict[str, Any]:
+        """For a checkpoint."""
+        return {
+            "network": self.network.state_dict(),
+            "optimiser": self.optimiser.state_dict(),
+            "average": self.average.state_dict() if self.average else None,
+            "iteration": self.iteration,
+            "best": msgspec.json.encode(self.best).decode(),
+        }
+
+    def load(self, state: dict[str, Any]) -> None:
+        """From a checkpoint."""
+        self.network.load_state_dict(state["network"])
+        self.optimiser.load_state_dict(state["optimiser"])
+        if self.average is not None:
+            self.average.load_state_dict(state["average"])
+        self.iteration = state["iteration"]
+        self.best = msgspec.json.decode(state["best"])
+
+
+class _Step(nn.Module):
+    """Forward pass and losses as one module, which several processes can share the gradients of."""
+
+    def __init__(self, network: PRSOLOv2) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(self, batch: Batch) -> Losses:
+        return losses_of(self.network, self.network(batch.photos, batch.origins), batch)
+
+
+def train(
+    examples: Sequence[Example],
+    validation: Sequence[Example],
+    out: Path,
+    *,
+    recipe: Recipe,
+    device: torch.device,
+    base: PRSOLOv2 | None = None,
+    resume: bool = False,
+    workers: int = 1,
+    notes: dict[str, Any] | None = None,
+    report: Report = lambda _: None,
+) -> TrainResult:
+    """Trains on crops of ``examples`` and keeps what does best on ``validation`` (whole photos; may be empty).
+
+    ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights if
+    they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights' card.
+    The same examples, recipe and seed give the same weights on one machine, however often the run was resumed.
+
+    Raises TrainError, DataError, CheckpointError, WeightsError.
+    """
+    with together(device) as place:
+        torch.manual_seed(recipe.seed)
+        run = _start(base or _new_network(recipe), recipe, place.device)
+        card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
+        _prepare(out, run, card, resume=resume, place=place)
+        step = _Step(run.network)
+        trained = DistributedDataParallel(step) if place.world > 1 else step
+        checks = list(validation)[: recipe.validate_images]
+        try:
+            for batches in _batches(examples, recipe, run.iteration, workers=workers, place=place):
+                losses = _iterate(run, trained, batches, recipe, place)
+                report(_progress(run, recipe, losses, "training"))
+                _afterwards(run, recipe, checks, out, card, place, report, losses)
+        except BaseException:
+            if place.leads and run.iteration:
+                save_checkpoint(out, run.state())
+            raise
+        if place.leads:
+            _finish(run, out, card)
+        place.wait()
+        return TrainResult(weights=out / FINAL, figures=run.best)
+
+
+def _new_network(recipe: Recipe) -> PRSOLOv2:
+    network = PRSOLOv2(recipe.network)
+    state = imagenet_weights() if recipe.network.backbone == "lite0" else None
+    if state is not None:
+        load_backbone(network.backbone, state)
+    return network
+
+
+def _start(network: PRSOLOv2, recipe: Recipe, device: torch.device) -> _Run:
+    freeze_stages(network, recipe.frozen)
+    network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
+    return _Run(
+        network=network,
+        optimiser=optimiser_of(network, recipe),
+        average=average_of(network, recipe.average) if recipe.average else None,
+    )
+
+
+def _prepare(out: Path, run: _Run, card: dict[str, Any], *, resume: bool, place: Place) -> None:
+    """The output folder: empty for a new run, with its checkpoint for one that goes on."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise TrainError(f"{out} cannot be made: {error.strerror or error}.") from error
+    if resume:
+        run.load(load_checkpoint(out, device=place.device))
+    elif any(out.iterdir()) and place.leads:
+        raise TrainError(f"{out} is not empty; give a new folder, or --resume to go on with that run.")
+    place.wait()
+    if place.leads:
+        train_log.cut_after(out, run.iteration)
+        (out / RUN).write_bytes(msgspec.json.format(msgspec.json.encode(card), indent=2))
+
+
+def _batches(
+    examples: Sequence[Example], recipe: Recipe, first: int, *, workers: int, place: Place
+) -> Iterator[list[Batch]]:
+    """The batches of every iteration from ``first`` on; each of several processes has its share of them."""
+    if recipe.batch % place.world:
+        raise TrainError(f"A batch of {recipe.batch} cannot be shared by {place.world} processes.")
+    settings = SampleConfig(
+        crop=recipe.crop,
+        network=recipe.network,
+        batch=recipe.batch // place.world,
+        soft=recipe.targets == "soft",
+        seed=recipe.seed,
+    )
+    count = recipe.iterations * recipe.accumulate * place.world
+    mine = range(first * recipe.accumulate * place.world + place.rank, count, place.world)
+    loader = DataLoader(
+        Batches(examples, settings, count=count),
+        batch_size=None,
+        sampler=mine,
+        num_workers=workers,
+        prefetch_factor=4 if workers else None,
+    )
+    gathered = []
+    for batch in loader:
+        gathered.append(batch)
+        if len(gathered) == recipe.accumulate:
+            yield gathered
+            gathered = []
+
+
+def _iterate(
+    run: _Run, step: nn.Module, batches: list[Batch], recipe: Recipe, place: Place
+) -> dict[str, float]:
+    """One step of the optimiser; returns what the log says of it."""
+    began = time.monotonic()
+    # Everything drawn in this iteration depends on its number alone, so that a resumed run draws the same.
+    torch.manual_seed((recipe.seed * SEEDS + run.iteration) * place.world + place.rank)
+    run.network.train()
+    freeze_statistics(run.network)
+    rate = rate_at(run.iteration, recipe)
+    set_rate(run.optimiser, rate)
+    run.optimiser.zero_grad(set_to_none=True)
+    parts = []
+    for batch in batches:
+        with torch.autocast(place.device.type, torch.bfloat16, enabled=recipe.bf16):
+            losses = step(batch.to(place.device))
+        (losses.total / len(batches)).backward()
+        parts.append(torch.stack([term.detach() for term in losses]))
+    category, mask, points = torch.stack(parts).mean(0).tolist()
+    norm = float(nn.utils.clip_grad_norm_(run.network.parameters(), recipe.clip))
+    if not math.isfinite(norm) or not math.isfinite(category + mask + points):
+        raise TrainError(
+            f"The loss is no number any more at iteration {run.iteration}; "
+            "lower the rate, or lengthen the warm-up, and resume."
+        )
+    run.optimiser.step()
+    if run.average is not None:
+        run.average.update_parameters(run.network)
+    run.iteration += 1
+    return {
+        "category": category,
+        "mask": mask,
+        "points": points,
+        "rate": rate,
+        "norm": norm,
+        "seconds": time.monotonic() - began,
+    }
+
+
+def _afterwards(
+    run: _Run,
+    recipe: Recipe,
+    checks: Sequence[Example],
+    out: Path,
+    card: dict[str, Any],
+    place: Place,
+    report: Report,
+    losses: dict[str, float],
+) -> None:
+    """Logs an iteration; validates and saves where it is time to."""
+    last = run.iteration == recipe.iterations
+    if place.leads:
+        train_log.append(out, [{"iteration": run.iteration, **losses}])
+        if checks and (last or run.iteration % recipe.validate_every == 0):
+            _check(run, checks, out, card, place, lambda what: report(_progress(run, recipe, losses, what)))
+        if last or run.iteration % recipe.save_every == 0:
+            save_checkpoint(out, run.state())
+            train_log.draw_curves(out)
+    place.wait()
+
+
+def _check(
+    run: _Run,
+    checks: Sequence[Example],
+    out: Path,
+    card: dict[str, Any],
+    place: Place,
+    say: Callable[[str], None],
+) -> None:
+    """Validates, and keeps the weights where they are the best so far."""
+    figures = validate(run.kept, checks, device=place.device, progress=lambda _, __, what: say(what))
+    found = {name: value for name, value in figures.items() if isinstance(value, float)}
+    train_log.append(out, [{"iteration": run.iteration, **found}])
+    if not run.best or found["AP"] > run.best["AP"]:
+        run.best = {"iteration": run.iteration, **found}
+        _save(run, out / BEST, card)
+
+
+def _finish(run: _Run, out: Path, card: dict[str, Any]) -> None:
+    if (out / BEST).exists():
+        shutil.copyfile(out / BEST, out / FINAL)
+    else:
+        _save(run, out / FINAL, card)
+
+
+def _save(run: _Run, path: Path, card: dict[str, Any]) -> None:
+    state: dict[str, Tensor] = run.kept.state_dict()
+    figures = {"iteration": run.iteration, "validation": run.best}
+    save_weights(path, state, run.network.config, card={**card, **figures})
+
+
+def _progress(run: _Run, recipe: Recipe, losses: dict[str, float], what: str) -> Progress:
+    return Progress(
+        iteration=run.iteration,
+        iterations=recipe.iterations,
+        loss=losses["category"] + 3 * losses["mask"] + losses["points"],
+        what=what,
+    )

@@ -1,0 +1,72 @@
+"""How good a network is on labelled photos: its predictions as a COCO document, against the labels as another."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import torch
+
+from model.data import Example, read_rgb
+from model.evaluate.masks import evaluate_masks
+from model.network.pr_solov2 import PRSOLOv2
+from model.predict import Detection, PredictConfig, Predictor
+from model.raster import rle_of_outline
+
+Progress = Callable[[int, int, str], None]
+
+
+def validate(
+    network: PRSOLOv2,
+    examples: Sequence[Example],
+    *,
+    device: torch.device,
+    settings: PredictConfig | None = None,
+    progress: Progress = lambda *_: None,
+) -> dict[str, Any]:
+    """The figures of ``evaluate masks`` for a copy of the network, which is left as it is."""
+    predictor = Predictor(copy.deepcopy(network), device=device, settings=settings)
+    found = []
+    for nth, example in enumerate(examples):
+        progress(nth, len(examples), f"validating on {example.path.name}")
+        found.append(predictor.detect(read_rgb(example.path)))
+    return evaluate_masks(document_of_detections(examples, found), document_of_labels(examples))
+
+
+def document_of_labels(examples: Sequence[Example]) -> dict[str, Any]:
+    """The labels as a COCO document; ignored regions carry ``ignore``."""
+    annotations = [
+        {"image_id": nth, "segmentation": _rle(outline, example), "ignore": ignored}
+        for nth, example in enumerate(examples, start=1)
+        for ignored, outlines in ((False, example.caps), (True, example.ignored))
+        for outline in outlines
+    ]
+    return _document(examples, annotations)
+
+
+def document_of_detections(
+    examples: Sequence[Example], found: Sequence[Sequence[Detection]]
+) -> dict[str, Any]:
+    """Predictions as a COCO document, in the order of the examples."""
+    annotations = [
+        {"image_id": nth, "segmentation": detection.rle, "score": detection.score}
+        for nth, detections in enumerate(found, start=1)
+        for detection in detections
+    ]
+    return _document(examples, annotations)
+
+
+def _rle(outline: list[list[float]], example: Example) -> dict[str, Any]:
+    return rle_of_outline(outline, height=example.height, width=example.width)
+
+
+def _document(examples: Sequence[Example], annotations: list[dict[str, Any]]) -> dict[str, Any]:
+    images = []
+    for nth, example in enumerate(examples, start=1):
+        size = {"width": example.width, "height": example.height}
+        groups = {"light": example.light, "form": example.form}
+        # Photos of one name may lie in several folders; here each is its own.
+        images.append({"id": nth, "file_name": f"{nth}.png", **size, **groups})
+    numbered = [{"id": nth, "category_id": 1, **cap} for nth, cap in enumerate(annotations, start=1)]
+    return {"images": images, "annotations": numbered, "categories": [{"id": 1, "name": "mushroom"}]}
