@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import gzip
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from app.cli import app
+from app.commands.files import FileError
+
+
+def bed(*corners: int, **annotation: Any) -> dict[str, Any]:
+    """Caps of 40 × 40 px with these left upper corners."""
+    squares = [[[x, 0, x + 40, 0, x + 40, 40, x, 40]] for x in corners]
+    return {
+        "images": [{"id": 1, "file_name": "a.png", "width": 400, "height": 100, "light": "dark"}],
+        "annotations": [
+            {"id": x, "image_id": 1, "segmentation": s, **annotation}
+            for x, s in zip(corners, squares, strict=True)
+        ],
+    }
+
+
+@pytest.fixture
+def truth(tmp_path: Path) -> Path:
+    path = tmp_path / "truth.json"
+    path.write_text(json.dumps(bed(0, 100, 200)))
+    return path
+
+
+@pytest.fixture
+def predicted(tmp_path: Path) -> Path:
+    """A gzipped list of results, as a model writes it."""
+    path = tmp_path / "predicted.json.gz"
+    path.write_bytes(gzip.compress(json.dumps(bed(0, 100, 300, score=0.75)["annotations"]).encode()))
+    return path
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(app, ["evaluate", *map(str, arguments)])
+
+
+def test_masks_are_compared_with_the_truth(predicted: Path, truth: Path) -> None:
+    told = invoke("masks", predicted, truth, "--json")
+
+    assert told.exit_code == 0
+    figures = json.loads(told.stdout)
+    assert (figures["P"], figures["R"], figures["S50"]) == (2 / 3, 2 / 3, 2 / 3)
+    assert figures["groups"]["light"]["dark"]["count"] == 3
+
+
+def test_the_figures_are_shown_as_tables(predicted: Path, truth: Path) -> None:
+    told = invoke("masks", predicted, truth)
+
+    assert told.exit_code == 0
+    assert "S50_strict" in told.stdout
+    assert "0.6667" in told.stdout
+    assert "2 matched, 1 missed, 1 extra" in told.stdout
+    assert "score ≥ 0.750" in told.stdout
+
+
+def test_nothing_predicted_is_shown_too(truth: Path, tmp_path: Path) -> None:
+    (tmp_path / "nothing.json").write_text("[]")
+
+    assert "0 matched, 3 missed" in invoke("masks", tmp_path / "nothing.json", truth).stdout
+
+
+@pytest.mark.parametrize("command", ["masks", "centres"])
+def test_the_file_that_is_wrong_is_named_and_the_other_is_not(
+    command: str, truth: Path, tmp_path: Path
+) -> None:
+    wrong = tmp_path / "wrong.json"
+    wrong.write_text(json.dumps(bed(0, score=float("nan"))))
+
+    refused = invoke(command, wrong, truth)
+
+    assert refused.exit_code == 1
+    assert isinstance(refused.exception, FileError)
+    assert str(refused.exception).startswith(
+        f"{wrong}: Annotation 0 of a.png: Its score is not a finite number"
+    )
+    assert str(invoke(command, truth, wrong).exception).startswith(f"{wrong}: ")
+
+
+def test_files_that_do_not_fit_together_are_both_named(truth: Path, tmp_path: Path) -> None:
+    other = bed(0)
+    other["images"][0]["width"] = 300
+    (tmp_path / "other.json").write_text(json.dumps(other))
+
+    refused = str(invoke("masks", tmp_path / "other.json", truth).exception)
+
+    assert refused.startswith(f"{tmp_path / 'other.json'} or {truth}: a.png has different sizes")
+
+
+def test_a_missing_file_is_named(truth: Path, tmp_path: Path) -> None:
+    assert "nowhere.json cannot be read" in str(invoke("masks", tmp_path / "nowhere.json", truth).exception)
+
+
+def test_every_evaluation_says_how_it_is_used() -> None:
+    for command in ("masks", "centres"):
+        assert f"fairyring evaluate {command}" in invoke(command, "--help").stdout
