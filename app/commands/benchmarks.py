@@ -8,6 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
+from app.commands.contour import MethodName
+
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
@@ -64,15 +66,26 @@ def contour(
     real: Annotated[
         Path | None, typer.Option(help="Folder of hand-checked photos with checked.json, measured too.")
     ] = None,
+    pictures: Annotated[
+        Path | None, typer.Option(help="Folder for pictures of the worst ten caps of the real photos.")
+    ] = None,
+    method: Annotated[
+        list[MethodName] | None, typer.Option(help="Whose worst ten to draw; may be given again.")
+    ] = None,
     quick: Quick = False,
     as_json: AsJson = False,
 ) -> None:
     """Measure every contour method's centres against the truth, and its time against OpenCV alone.
 
-    Example: `fairyring bench contour --json`
+    Example: `fairyring bench contour --real beds --pictures worst --method map --json`
     """
     from app.bench import contour as bench
+    from app.bench.worst import draw_worst
 
+    if pictures is not None and real is None:
+        raise typer.BadParameter("--pictures are of real photos: give their folder with --real.")
+    if pictures is not None and real is not None:
+        draw_worst(real, pictures, methods=[each.value for each in method or [MethodName.map]])
     _print("contour", bench.run(quick=quick, real=real), as_json=as_json)
 
 
