@@ -10,20 +10,17 @@ from numpy.typing import NDArray
 
 from model.scene.caps import Cap, shape_caps
 from model.scene.growth import Rectangle, Stand, grow
-from model.scene.layers import Owners, Seen, look_at, own_pixels, pile_up, stack_layers, strips, window
+from model.scene.layers import Layer, Owners, Seen, look_at, own_pixels, stack_layers, strips, window
 from model.scene.lens import draw_shot, expose
 from model.scene.light import Light, Shade, cast_shade, draw_light, shine
-from model.scene.pixels import Image, threefold
+from model.scene.pixels import Image, lay_over
 from model.scene.presets import with_form
 from model.scene.settings import LightSource, Settings
-from model.scene.skin import Dress, bend_normals, dress_cap, dress_stalk
+from model.scene.skin import bend_normals, dress_cap, dress_stalk
 from model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
 from model.scene.stalks import shape_stalks
 from model.scene.truth import BedCap, tell_truth
 from model.scene.view import View, bounds_of_ground, hang_camera, see_ground
-
-FLESH_GLOW = 0.18
-SOIL_GLOW = 0.05
 
 
 class Bed(NamedTuple):
@@ -65,11 +62,11 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     )
     ground = see_ground(view)
     planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
-    bare = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
-    z = pile_up(planted.seen, planted.owners, bare.z)
-    shade = cast_shade(z, planted.owners != 0, light)
-    lit = _lit(planted, bare, light=light, shade=shade, settings=settings, rng=rng)
-    image = expose(lit, z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
+    scene = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
+    _clothe(planted, scene, settings, rng)
+    shade = cast_shade(scene.z, planted.owners != 0, light)
+    lit = _lit(scene, light=light, shade=shade)
+    image = expose(lit, scene.z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
     told = tell_truth(planted.caps, planted.seen, planted.owners)
     return Bed(image, told, planted.owners, source, form, shot.jpeg)
 
@@ -106,18 +103,21 @@ def _plant(
         caps, stalks = shape_caps(stand, view, growth, rng), shape_stalks(stand, view, rng)
         layers = stack_layers(caps, stalks, width=view.width, height=view.height)
         owners = own_pixels(layers, width=view.width, height=view.height)
-        pixels = np.bincount(owners[owners > 0], minlength=count + 1)[1:]
-        in_sight = np.flatnonzero(pixels)
+        shares = {layer.mushroom: _in_sight(layer, owners) for layer in layers if layer.is_cap}
+        in_sight = np.array([cap for cap, share in shares.items() if share > 0])
         if len(in_sight) >= wanted:
             break
         count = math.ceil(1.2 * count)
     # What has been overgrown comes to nothing more often than what stands free.
-    area = {layer.mushroom: layer.area for layer in layers if layer.is_cap}
-    vigour = [pixels[cap] / area[cap] for cap in in_sight.tolist()] + rng.random(len(in_sight))
+    vigour = [shares[cap] for cap in in_sight.tolist()] + rng.random(len(in_sight))
     kept = set(in_sight[np.argsort(-vigour)[:wanted]].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
     return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
+
+
+def _in_sight(layer: Layer, owners: Owners) -> float:
+    return np.count_nonzero(owners[window(layer.box)] == layer.owner) / layer.area
 
 
 def _area(ground: Rectangle) -> float:
@@ -125,40 +125,35 @@ def _area(ground: Rectangle) -> float:
     return (right - left) * (bottom - top)
 
 
-def _lit(
-    planted: _Planted, bare: Bare, *, light: Light, shade: Shade, settings: Settings, rng: np.random.Generator
-) -> Image:
-    """Linear light of the whole picture: soil first, then every layer over what lies under it."""
-    rows, columns = bare.z.shape
-    picture = np.empty((rows, columns, 3), np.float32)
-    for box in strips(rows, columns):
-        here = window(box)
-        picture[here] = shine(
-            bare.colour[here],
-            bare.normal[here],
-            bare.z[here],
-            box=box,
-            light=light,
-            shade=shade,
-            glow=SOIL_GLOW,
-        )
+def _clothe(planted: _Planted, bare: Bare, settings: Settings, rng: np.random.Generator) -> None:
+    """Lays every cap and stalk over what lies under it; edges are mixed, surfaces as well as colours."""
     brown = rng.uniform(*settings.skin.brown)
     for part in planted.seen:
         own = float(np.clip(brown * rng.normal(1, 0.12), 0, 1))
-        dress = _dressed(part, planted.caps[part.layer.mushroom], settings, own, rng)
-        _lay(picture, part, dress, light, shade)
+        surface = part.surface
+        if part.layer.is_cap:
+            dress = dress_cap(planted.caps[part.layer.mushroom], surface, settings.skin, brown=own, rng=rng)
+        else:
+            dress = dress_stalk(surface, brown=own, rng=rng)
+        here = window(part.box)
+        lay_over(bare.colour[:, *here], dress.colour, surface.cover)
+        # What turns away from the light at a rim must not be lit like the ground behind it.
+        turned = (2 * surface.cover).clip(0, 1)
+        lay_over(bare.normal[:, *here], bend_normals(surface.normal, dress.relief), turned)
+        lay_over(bare.z[here], surface.z, turned)
+
+
+def _lit(scene: Bare, *, light: Light, shade: Shade) -> Image:
+    """Linear light of the whole picture, (3, rows, columns)."""
+    picture = np.empty_like(scene.colour)
+    for box in strips(*scene.z.shape):
+        here = window(box)
+        picture[:, *here] = shine(
+            scene.colour[:, *here],
+            scene.normal[:, *here],
+            scene.z[here],
+            box=box,
+            light=light,
+            shade=shade,
+        )
     return picture
-
-
-def _dressed(part: Seen, cap: Cap, settings: Settings, brown: float, rng: np.random.Generator) -> Dress:
-    if part.layer.is_cap:
-        return dress_cap(cap, part.surface, settings.skin, brown=brown, rng=rng)
-    return dress_stalk(part.surface, brown=brown, rng=rng)
-
-
-def _lay(picture: Image, part: Seen, dress: Dress, light: Light, shade: Shade) -> None:
-    surface = part.surface
-    normal = bend_normals(surface.normal, dress.relief.astype(np.float32))
-    lit = shine(dress.colour, normal, surface.z, box=part.box, light=light, shade=shade, glow=FLESH_GLOW)
-    here = window(part.box)
-    picture[here] += (lit - picture[here]) * threefold(surface.cover)

@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from model.geometry import part_of_points
 from model.scene.growth import Floats, Stand, pairs_within
-from model.scene.pixels import Image, unit
+from model.scene.pixels import Image, clipped
 from model.scene.settings import Growth
 from model.scene.view import View, project, turn
 
@@ -25,6 +26,8 @@ Box = tuple[int, int, int, int]
 ANGLES = 128
 """Directions an outline is kept in: the polygon's vertices. At 100 px its edges sag by 0.03 px."""
 DIRECTIONS = np.arange(ANGLES) * (2 * np.pi / ANGLES)
+FINE = 2048
+"""Directions in which a surface looks its outline up, a power of 2."""
 
 
 class Cap(NamedTuple):
@@ -49,7 +52,7 @@ class Surface(NamedTuple):
     """Share of the pixel it covers, where nothing lies on it."""
     z: Image
     normal: Image
-    """(rows, columns, 3), unit, view coordinates."""
+    """(3, rows, columns), view coordinates, of about unit length."""
     skin_x: Image
     skin_y: Image
     """Place on it, px, as if unrolled."""
@@ -93,13 +96,14 @@ def polygon_of_cap(cap: Cap) -> list[float]:
 def surface_of_cap(cap: Cap, box: Box) -> Surface:
     """The surface over a box: each pixel's ray meets the upper spheroid or, below the rim, the lower."""
     left, top, right, bottom = box
-    dx = np.arange(left, right, dtype=np.float32)[None] + np.float32(0.5 - cap.centre[0])
-    dy = np.arange(top, bottom, dtype=np.float32)[:, None] + np.float32(0.5 - cap.centre[1])
-    angle = np.arctan2(dy, dx)
-    distance = np.hypot(dx, dy)
-    reach = _around(cap.outline, angle)
-    egg = _egg(np.array([cap.axis]), np.array([cap.dome]), np.array([cap.base]))[0]
-    shrink = _around(egg, angle) / reach
+    dx = np.arange(left, right, dtype=np.float32) + np.float32(0.5 - cap.centre[0])
+    dy = np.arange(top, bottom, dtype=np.float32) + np.float32(0.5 - cap.centre[1])
+    dx, dy = np.meshgrid(dx, dy)
+    distance, angle = cv2.cartToPolar(dx, dy)
+    index = (angle * np.float32(FINE / (2 * np.pi))).astype(np.intp) & (FINE - 1)
+    outline = _fine(cap.outline)
+    egg = _fine(_egg(np.array([cap.axis]), np.array([cap.dome]), np.array([cap.base]))[0])
+    reach, shrink = outline[index], (egg / outline)[index]
 
     sine = math.hypot(cap.axis[0], cap.axis[1])
     cosine = max(cap.axis[2], 0.05)
@@ -107,31 +111,32 @@ def surface_of_cap(cap: Cap, box: Box) -> Surface:
     along = (dx * toward_x + dy * toward_y) * shrink
     across = (dy * toward_x - dx * toward_y) * shrink
 
-    upper = _depth(along, across, sine, cosine, cap.dome)
-    lower = _depth(along, across, sine, cosine, cap.base)
-    is_dome = along * sine + upper * cosine >= 0
-    depth = np.where(is_dome, upper, lower)
-    flat = np.where(is_dome, cap.dome, cap.base)
+    depth, flat = _depth(along, across, sine, cosine, cap.dome), np.float32(cap.dome)
     up = along * sine + depth * cosine
+    if up.min() < 0:
+        is_dome = up >= 0
+        depth = np.where(is_dome, depth, _depth(along, across, sine, cosine, cap.base))
+        flat = np.where(is_dome, flat, np.float32(cap.base))
+        up = along * sine + depth * cosine
     out = along * cosine - depth * sine
 
     steep = up / (flat * flat)
     tilt = out * cosine + steep * sine
-    normal = cv2.merge(
+    normal = np.stack(
         [
             tilt * toward_x - across * toward_y,
             tilt * toward_y + across * toward_x,
-            np.maximum(steep * cosine - out * sine, 0.02),
+            (steep * cosine - out * sine).clip(0.02),
         ]
     )
     size = np.float32(cap.radius)
     return Surface(
-        cover=np.clip(reach - distance + 0.5, 0, 1).astype(np.float32),
-        z=(cap.centre[2] + depth * size).astype(np.float32),
-        normal=unit(normal),
-        skin_x=(out * size).astype(np.float32),
-        skin_y=(across * size).astype(np.float32),
-        rise=up.astype(np.float32),
+        cover=clipped(reach - distance + 0.5, 0, 1),
+        z=np.float32(cap.centre[2]) + depth * size,
+        normal=normal,
+        skin_x=out * size,
+        skin_y=across * size,
+        rise=up,
     )
 
 
@@ -140,7 +145,7 @@ def _depth(along: Image, across: Image, sine: float, cosine: float, flat: float)
     a = sine**2 + cosine**2 / flat**2
     b = along * (sine * cosine * (1 / flat**2 - 1))
     c = along**2 * (cosine**2 + sine**2 / flat**2) + across**2 - 1
-    return (np.sqrt(np.maximum(b * b - a * c, 0)) - b) / a
+    return (np.sqrt((b * b - a * c).clip(0)) - b) / np.float32(a)
 
 
 def _egg(axis: Floats, dome: Floats, base: Floats) -> Floats:
@@ -195,12 +200,11 @@ def _along(outline: Floats, angle: float) -> float:
     return float(outline[round(angle / (2 * np.pi) * ANGLES) % ANGLES])
 
 
-def _around(outline: Floats, angle: Image) -> Image:
-    """The outline's distance at every pixel's angle, between the kept directions linearly."""
-    place = angle * np.float32(ANGLES / (2 * np.pi))
-    below = np.floor(place)
-    part = place - below
-    index = below.astype(np.int64) % ANGLES
-    here = outline.astype(np.float32)
-    after = np.roll(here, -1)
-    return here[index] * (1 - part) + after[index] * part
+def _fine(outline: Floats) -> NDArray[np.float32]:
+    """(FINE,): an outline between the kept directions, linearly."""
+    closed = np.append(outline, outline[0])
+    return np.interp(_FINE_PLACES, _KEPT_PLACES, closed).astype(np.float32)
+
+
+_FINE_PLACES = (np.arange(FINE) + 0.5) * (ANGLES / FINE)
+_KEPT_PLACES = np.arange(ANGLES + 1.0)

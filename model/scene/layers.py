@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from model.geometry import bounds_of_outline
 from model.raster import mask_of_outline
 from model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
-from model.scene.pixels import Image
 from model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
 
 Owners = NDArray[np.int32]
@@ -66,21 +65,20 @@ def own_pixels(layers: Iterable[Layer], *, width: int, height: int) -> Owners:
     """Whose each pixel is: the highest layer's that has it."""
     owners = np.zeros((height, width), np.int32)
     for layer in layers:
-        owners[window(layer.box)][layer.mask] = layer.owner
+        np.copyto(owners[window(layer.box)], layer.owner, where=layer.mask)
     return owners
 
 
 def look_at(layers: Iterable[Layer], owners: Owners, caps: list[Cap], stalks: list[Stalk]) -> list[Seen]:
     """The layers with a pixel in sight, from the lowest to the highest, with their surfaces there."""
     rows, columns = owners.shape
-    lowest = int(owners.min())
-    pixels = np.bincount((owners - lowest).ravel())
     seen = []
     for layer in layers:
-        if not lowest <= layer.owner < lowest + len(pixels) or pixels[layer.owner - lowest] == 0:
-            continue
         left, top, _, _ = layer.box
-        x, y, wide, high = cv2.boundingRect((owners[window(layer.box)] == layer.owner).astype(np.uint8))
+        own = owners[window(layer.box)] == layer.owner
+        x, y, wide, high = cv2.boundingRect(own.view(np.uint8))
+        if wide == 0:
+            continue
         box = _cut((left + x - 1, top + y - 1, left + x + wide + 1, top + y + high + 1), columns, rows)
         if box:
             surface = (
@@ -90,16 +88,6 @@ def look_at(layers: Iterable[Layer], owners: Owners, caps: list[Cap], stalks: li
             )
             seen.append(Seen(layer, box, surface))
     return seen
-
-
-def pile_up(seen: Iterable[Seen], owners: Owners, soil: Image) -> Image:
-    """View z of what is seen, (rows, columns)."""
-    z = soil.copy()
-    for part in seen:
-        here = window(part.box)
-        own = owners[here] == part.layer.owner
-        z[here][own] = part.surface.z[own]
-    return z
 
 
 def window(box: Box) -> tuple[slice, slice]:

@@ -10,15 +10,19 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from model.scene import textures
 from model.scene.layers import strips, window
-from model.scene.pixels import Image, filtered, threefold
+from model.scene.pixels import Image, clipped, planes
 from model.scene.settings import Camera
 
 LEVELS = 4096
 SATURATION = 1.6
-BLACK = 0.0022
-"""Linear light a camera takes for none."""
 """Linear light at which the sensor is full."""
+GLARE = np.array([0.040, 0.031, 0.031], np.float32)
+"""Share of the light around that strays in the lens, bluish."""
+GLARE_REACH = 60.0
+DEEPEST = 0.02
+"""Most light that is taken for black."""
 
 
 class Shot(NamedTuple):
@@ -26,11 +30,18 @@ class Shot(NamedTuple):
 
     pitch_deg: float
     vignette: float
+    sharpness: float
+    """Standard deviation of the blur of what is in focus, px."""
     balance: NDArray[np.float32]
     """(3,) gains, blue first."""
     exposure: float
     focus: float
     """Where between the soil and the highest cap the focus lies, 0–1."""
+    black: float
+    """Share of the picture that the camera takes for black."""
+    crisp: float
+    """How much it sharpens."""
+    glare: float
     jpeg: int
 
 
@@ -40,9 +51,13 @@ def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
     return Shot(
         pitch_deg=rng.uniform(*camera.pitch_deg),
         vignette=rng.uniform(*camera.vignette),
+        sharpness=camera.sharpness * math.exp(0.2 * rng.standard_normal()),
         balance=balance,
         exposure=camera.exposure * math.exp(0.08 * rng.standard_normal()),
         focus=rng.uniform(0.4, 0.9),
+        black=rng.uniform(*camera.black),
+        crisp=rng.uniform(*camera.crispness),
+        glare=rng.uniform(0.3, 1.7),
         jpeg=int(rng.integers(camera.jpeg[0], camera.jpeg[1] + 1)),
     )
 
@@ -50,57 +65,80 @@ def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
 def expose(
     light: Image, z: Image, *, camera: Camera, shot: Shot, dimness: float, rng: np.random.Generator
 ) -> NDArray[np.uint8]:
-    """Linear light (rows, columns, 3) and view z (rows, columns) → an 8-bit BGR photo."""
+    """Linear light (3, rows, columns) and view z (rows, columns) → an 8-bit BGR photo."""
     rows, columns = z.shape
     seen = _focused(light, z, camera=camera, shot=shot)
-    grain, blots = _noise(rows, columns, rng)
-    falloff = _vignette(rows, columns, shot.vignette)
+    seen += _stray(light) * planes(GLARE * np.float32(shot.glare))
+    gain = _vignette(rows, columns, shot.vignette) * np.float32(shot.exposure)
+    darkest = np.quantile(seen[:, ::8, ::8] * gain[::8, ::8], shot.black, axis=(1, 2))
+    black = planes(shot.balance * np.minimum(darkest, DEEPEST))
+    left, top = rng.integers(0, textures.SIZE, 2)
+    grain = textures.sensor(columns)[:, :, left : left + columns]
     photo = np.empty((rows, columns, 3), np.uint8)
     for box in strips(rows, columns):
         here = window(box)
-        fallen = filtered(seen[here] * threefold(shot.exposure * falloff[here]), shot.balance)
+        fallen = seen[:, *here] * (planes(shot.balance) * gain[here]) - black
         # Grows with the root of the light.
-        strength = np.sqrt(np.maximum(fallen[..., 1], 0) * np.float32(5e-5) + np.float32(5e-7))
+        strength = np.sqrt(fallen[1].clip(0) * np.float32(5e-5) + np.float32(5e-7))
         strength *= np.float32(camera.noise * dimness)
-        fallen += threefold(2 * strength * grain[here]) + threefold(0.6 * strength) * blots[here]
-        index = np.clip(fallen * np.float32((LEVELS - 1) / SATURATION), 0, LEVELS - 1).astype(np.uint16)
-        photo[here] = np.take(_tone_curve(), index)
-    return photo
+        fallen += strength * grain[:, np.arange(top + box[1], top + box[3]) % textures.SIZE]
+        fallen *= np.float32((LEVELS - 1) / SATURATION)
+        index = clipped(fallen, 0, LEVELS - 1).astype(np.uint16)
+        photo[here] = cv2.merge([np.take(_tone_curve(), plane) for plane in index])
+    return _sharpened(photo, shot.crisp)
+
+
+def _sharpened(photo: NDArray[np.uint8], amount: float) -> NDArray[np.uint8]:
+    """What every camera does to its photos, more or less of it."""
+    smooth = cv2.GaussianBlur(photo, (0, 0), 1.2)
+    return np.asarray(cv2.addWeighted(photo, 1 + amount, smooth, -amount, 0), np.uint8)
 
 
 def _focused(light: Image, z: Image, *, camera: Camera, shot: Shot) -> Image:
     """Sharp where the focus lies, blurred in front of and behind it."""
-    sharp = cv2.GaussianBlur(light, (0, 0), camera.sharpness)
     if camera.defocus == 0:
-        return sharp
+        return np.stack([cv2.GaussianBlur(plane, (0, 0), shot.sharpness) for plane in light])
     low, high = np.percentile(z[::8, ::8], (2, 99)).tolist()
     coarse = cv2.resize(z, None, fx=0.25, fy=0.25, interpolation=cv2.INTER_AREA)
     off = np.abs(coarse - (low + shot.focus * (high - low)))
     blur = cv2.GaussianBlur(off, (0, 0), 1.25) * np.float32(camera.defocus / 150.0)
     most = max(float(blur.max()), 1e-3)
-    soft = cv2.GaussianBlur(light, (0, 0), math.hypot(camera.sharpness, most))
     # Variances add: a mixture by this share has the variance the blur asks for.
     share = cv2.resize((blur / most) ** 2, z.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    return cv2.blendLinear(soft, sharp, share, 1 - share)
+    seen = np.empty_like(light)
+    for plane, own in zip(light, seen, strict=True):
+        sharp = cv2.GaussianBlur(plane, (0, 0), shot.sharpness)
+        soft = _blurred(plane, math.hypot(shot.sharpness, most))
+        own[:] = cv2.blendLinear(soft, sharp, share, 1 - share)
+    return seen
+
+
+def _blurred(plane: Image, reach: float) -> Image:
+    """By way of half the size where nothing that fine is left."""
+    if reach < 1.6:
+        return cv2.GaussianBlur(plane, (0, 0), reach)
+    half = cv2.resize(plane, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+    return cv2.resize(cv2.GaussianBlur(half, (0, 0), reach / 2), plane.shape[::-1])
+
+
+def _stray(light: Image) -> Image:
+    """Light scattered in the lens: a very wide blur."""
+    shape = light.shape[:0:-1]
+    factor = 2.0 / GLARE_REACH
+    small = [cv2.resize(plane, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA) for plane in light]
+    return np.stack([cv2.resize(cv2.GaussianBlur(plane, (0, 0), 2.0), shape) for plane in small])
 
 
 def _vignette(rows: int, columns: int, amount: float) -> Image:
-    x = np.linspace(-1, 1, columns, dtype=np.float32)[None]
-    y = np.linspace(-1, 1, rows, dtype=np.float32)[:, None]
-    return 1 - amount * ((x * x + y * y) / 2) ** 1.3
-
-
-def _noise(rows: int, columns: int, rng: np.random.Generator) -> tuple[Image, Image]:
-    """Noise in brightness (rows, columns) and in colour (rows, columns, 3), both smeared by demosaicing."""
-    grain = cv2.GaussianBlur(rng.standard_normal((rows, columns), np.float32), (0, 0), 0.7)
-    coarse = rng.standard_normal((rows // 2, columns // 2, 3), np.float32)
-    return grain, cv2.resize(coarse, (columns, rows), interpolation=cv2.INTER_LINEAR)
+    x = np.linspace(-1, 1, columns // 8, dtype=np.float32)[None]
+    y = np.linspace(-1, 1, rows // 8, dtype=np.float32)[:, None]
+    return cv2.resize(1 - amount * ((x * x + y * y) / 2) ** 1.3, (columns, rows))
 
 
 @lru_cache(maxsize=1)
 def _tone_curve() -> NDArray[np.uint8]:
     """sRGB with a toe and a shoulder: shadows go down to black, highlights roll off instead of clipping."""
-    linear = np.maximum(np.linspace(0, SATURATION, LEVELS) - BLACK, 0)
+    linear = np.linspace(0, SATURATION, LEVELS)
     bright = np.where(linear < 0.6, linear, 0.6 + 0.38 * np.tanh((linear - 0.6) / 0.38))
     srgb = np.where(bright <= 0.0031308, 12.92 * bright, 1.055 * bright ** (1 / 2.4) - 0.055)
     return np.rint(255 * srgb).astype(np.uint8)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import cv2
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.scene.caps import Box
-from model.scene.pixels import Image, tinted
+from model.scene.pixels import Image, clipped, tinted
 from model.scene.settings import LightSource
 
 HALF = 0.5
@@ -17,11 +18,14 @@ HALF = 0.5
 SHADOW_STEPS = 26
 OCCLUDERS = ((4.0, 0.40), (13.0, 0.38), (40.0, 0.42))
 """Reach of what shuts out the sky, px, and how much of it that may shut out."""
-
-
-FLESH = np.array([0.66, 0.78, 0.80], np.float32)
+FLESH = np.array([0.68, 0.775, 0.79], np.float32)
 """What caps send on of the light that falls on them."""
 FLESH_REACH = 22.0
+BOUNCE = 0.5
+DEEP = 24.0
+"""How far below the caps around it their light is all a place gets, px."""
+GLOW = 0.10
+"""How far light creeps under the surface of flesh and round its edges."""
 
 
 class Light(NamedTuple):
@@ -39,6 +43,8 @@ class Light(NamedTuple):
     """Share of the key lost across the picture, away from the light."""
     height: float
     """How high over the soil it hangs, px: what stands nearer to it is brighter."""
+    gloss: float
+    """How much of it a moist skin mirrors."""
     dimness: float
     """How much more noise the sensor makes of it: 1 in good light."""
 
@@ -58,10 +64,10 @@ class Shade(NamedTuple):
 
 def draw_light(source: LightSource, rng: np.random.Generator) -> Light:
     """A light of one of the three kinds."""
-    azimuth, lift, warmth, slant, power, nearness = rng.random(6).tolist()
-    elevation = np.radians({"top": 58 + 26 * lift, "side": 17 + 17 * lift, "dark": 40 + 40 * lift}[source])
-    level = {"top": 0.66 + 0.12 * power, "side": 0.85 + 0.3 * power, "dark": 0.17 + 0.13 * power}[source]
-    sky = {"top": 0.30, "side": 0.10 + 0.06 * power, "dark": 0.10}[source]
+    azimuth, lift, warmth, slant, power, nearness, gloss = rng.random(7).tolist()
+    elevation = np.radians({"top": 50 + 28 * lift, "side": 17 + 17 * lift, "dark": 40 + 40 * lift}[source])
+    level = {"top": 0.92 + 0.24 * power, "side": 0.85 + 0.3 * power, "dark": 0.17 + 0.13 * power}[source]
+    sky = {"top": 0.10 + 0.14 * gloss, "side": 0.10 + 0.06 * power, "dark": 0.10}[source]
     cast = 0.10 * (warmth - 0.5) if source == "top" else 0.30 * (warmth - 0.35)
     colour = np.array([1 - cast, 1, 1 + cast], np.float32)
     across = 2 * np.pi * azimuth
@@ -75,6 +81,7 @@ def draw_light(source: LightSource, rng: np.random.Generator) -> Light:
         softness={"top": 0.22, "side": 0.07, "dark": 0.20}[source],
         slant={"top": 0.1 + 0.2 * slant, "side": 0.3 + 0.3 * slant, "dark": 0.4}[source],
         height=700 + 700 * nearness,
+        gloss=0.15 * gloss,
         dimness={"top": 1.0, "side": 1.3, "dark": 3.5}[source],
     )
 
@@ -87,76 +94,78 @@ def cast_shade(z: Image, flesh: NDArray[np.bool_], light: Light) -> Shade:
     def full(image: Image) -> Image:
         return cv2.resize(image, (columns, rows), interpolation=cv2.INTER_LINEAR)
 
-    hulls = tuple(full(_blurred(small, reach * HALF)) for reach, _ in OCCLUDERS)
+    hulls = tuple(_blurred(small, reach * HALF, (columns, rows)) for reach, _ in OCCLUDERS)
     pale = cv2.resize(flesh.astype(np.float32), None, fx=HALF, fy=HALF, interpolation=cv2.INTER_AREA)
-    around = full(_blurred(pale, FLESH_REACH * HALF))
+    around = _blurred(pale, FLESH_REACH * HALF, (columns, rows))
     return Shade(tuple(full(c) for c in _ceilings(small, light)), hulls, _gain(rows, columns, light), around)
 
 
-def shine(
-    colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade, glow: float
-) -> Image:
-    """Light that reaches the camera from a surface over the pixels of a box: (rows, columns, 3), linear.
+def shine(colour: Image, normal: Image, z: Image, *, box: Box, light: Light, shade: Shade) -> Image:
+    """Light that reaches the camera from surfaces over the pixels of a box: (3, rows, columns), linear.
 
-    ``glow`` is how far light creeps under the surface and round its edges: 0 for soil, about 0.3 for flesh.
+    Normals need not be of unit length.
     """
     left, top, right, bottom = box
     here = np.s_[top:bottom, left:right]
     x, y, up = light.direction
-    facing = normal[..., 0] * x + normal[..., 1] * y + normal[..., 2] * up
-    lit = np.clip((facing + glow) / (1 + glow), 0, None)
-    # The softer the light, the further above the edge of a shadow its last ray passes.
-    reach = 2.0 + 70.0 * light.softness
-    blocked = sum(np.clip((ceiling[here] - z) / reach + 0.5, 0, 1) for ceiling in shade.ceilings)
-    nearer = 1 + 2 * np.clip(z, -50, 300) / light.height
-    direct = lit * (1 - blocked / len(shade.ceilings)) * shade.gain[here] * nearer
+    across, along, level = normal
+    size = 1 / np.sqrt(across * across + along * along + level * level)
+    level = level * size
+    facing = (across * x + along * y) * size + level * up
+    lit = clipped((facing + GLOW) * np.float32(1 / (1 + GLOW)), 0, 1)
+    # A moist skin mirrors the light half way between it and the camera, softly.
+    mirrored = clipped((facing + level) * np.float32(1 / math.sqrt(2 + 2 * up)), 0, 1)
+    for _ in range(4):
+        mirrored *= mirrored
+    lit += light.gloss * mirrored
 
-    closed = sum(
-        most * np.clip((hull[here] - z) / (0.9 * size), 0, 1)
-        for hull, (size, most) in zip(shade.hulls, OCCLUDERS, strict=True)
-    )
-    opened = 1 - np.minimum(closed, 0.97)
-    sky = opened * (0.2 + 0.8 * normal[..., 2])
-    # Where caps shut out the sky their own light comes in its place, creamier with every bounce.
-    fill = (1 - opened * (0.6 + 0.4 * normal[..., 2])) * shade.flesh[here] * shade.gain[here]
-    deep = np.clip(closed * 1.6 - 0.35, 0, 1)
-    bounce = 0.62 * up * fill
-    return colour * (
-        tinted(direct, light.key)
-        + tinted(bounce * (1 - deep), light.key * FLESH)
-        + tinted(bounce * deep, light.key * FLESH * FLESH * np.float32(0.9))
-        + tinted(sky, light.sky)
-    )
+    # The softer the light, the further above the edge of a shadow its last ray passes.
+    reach = np.float32(2.0 + 70.0 * light.softness)
+    free = shade.gain[here] / len(shade.ceilings)
+    passed = sum(clipped((z - ceiling[here]) / reach + 0.5, 0, 1) for ceiling in shade.ceilings) * free
+    nearer = 1 + clipped(z * np.float32(2 / light.height), -100 / light.height, 600 / light.height)
+    direct = lit * passed * nearer
+
+    opened = np.ones_like(z)
+    for hull, (width, most) in zip(shade.hulls, OCCLUDERS, strict=True):
+        opened -= most * clipped((hull[here] - z) * np.float32(1 / (0.9 * width)), 0, 1)
+    clipped(opened, 0.03, 1)
+    sky = opened * (0.2 + 0.8 * level)
+    # Down between caps their own light comes in the sky's place, creamy from the bounce; a rim that stands
+    # over its surroundings gets none of it.
+    fill = clipped((shade.hulls[-1][here] - z) * np.float32(1 / DEEP), 0, 1)
+    fill *= shade.flesh[here] * shade.gain[here]
+    bounced = light.key * FLESH * np.float32(BOUNCE * up)
+    return colour * (tinted(direct, light.key) + tinted(fill, bounced) + tinted(sky, light.sky))
 
 
 def _ceilings(z: Image, light: Light) -> list[Image]:
     """For the light's lower and upper part: the z under which a point lies in its shadow."""
-    away = light.direction[:2] / max(float(np.hypot(*light.direction[:2])), 1e-6)
+    rows, columns = z.shape
+    towards = light.direction[:2] / max(float(np.hypot(*light.direction[:2])), 1e-6)
     slopes = [
-        np.tan(np.clip(light.elevation + off, 0.1, 1.5)) for off in (-light.softness / 2, light.softness / 2)
+        math.tan(min(max(light.elevation + off, 0.1), 1.5))
+        for off in (-light.softness / 2, light.softness / 2)
     ]
     ceilings = [np.full_like(z, -1e6) for _ in slopes]
-    highest = float(z.max() - z.min())
-    furthest = min(highest / slopes[0], 320.0)
-    for step in range(1, SHADOW_STEPS + 1):
-        distance = furthest * (step / SHADOW_STEPS) ** 1.5
-        shift = away * distance * HALF
-        move = np.array([[1, 0, shift[0]], [0, 1, shift[1]]], np.float32)
-        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-        seen = cv2.warpAffine(z, move, z.shape[::-1], flags=flags, borderMode=cv2.BORDER_REPLICATE)
+    furthest = min(float(z.max() - z.min()) / slopes[0], 320.0)
+    steps = furthest * HALF * (np.arange(1, SHADOW_STEPS + 1) / SHADOW_STEPS) ** 1.5
+    for x, y in sorted({(round(float(x)), round(float(y))) for x, y in steps[:, None] * towards}):
+        if abs(x) >= columns or abs(y) >= rows:
+            continue
+        # Whole pixels, so that what stands in the way is a window of the picture and not a copy of it.
+        away = np.s_[max(-y, 0) : rows + min(-y, 0), max(-x, 0) : columns + min(-x, 0)]
+        there = z[max(y, 0) : rows + min(y, 0), max(x, 0) : columns + min(x, 0)]
         for ceiling, slope in zip(ceilings, slopes, strict=True):
-            np.maximum(ceiling, seen - np.float32(distance * slope), out=ceiling)
+            ceiling[away] = cv2.max(ceiling[away], there - np.float32(math.hypot(x, y) / HALF * slope))
     return ceilings
 
 
-def _blurred(z: Image, reach: float) -> Image:
-    """A wide blur by way of a smaller picture."""
-    if reach < 4:
-        return cv2.GaussianBlur(z, (0, 0), reach)
-    factor = 2.0 / reach
+def _blurred(z: Image, reach: float, size: tuple[int, int]) -> Image:
+    """A wide blur by way of a smaller picture, at (columns, rows) of its own."""
+    factor = min(2.0 / reach, 1.0)
     small = cv2.resize(z, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
-    blurred = cv2.GaussianBlur(small, (0, 0), 2.0)
-    return cv2.resize(blurred, z.shape[::-1], interpolation=cv2.INTER_CUBIC)
+    return cv2.resize(cv2.GaussianBlur(small, (0, 0), reach * factor), size, interpolation=cv2.INTER_LINEAR)
 
 
 def _gain(rows: int, columns: int, light: Light) -> Image:

@@ -1,13 +1,13 @@
-"""Arithmetic on pictures: grey (rows, columns) with colour (rows, columns, 3).
+"""Arithmetic on pictures: grey (rows, columns) with colour and vectors (3, rows, columns).
 
-NumPy stretches a last axis of three element by element; joining whole channels is ten times faster.
+The planes lie apart, so that a grey picture meets each of them whole: NumPy stretches a last axis of three
+element by element, and OpenCV takes longer to split channels than to work on them.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,30 +17,32 @@ Colour = NDArray[np.floating]
 """(3,), blue first."""
 
 
-def threefold(grey: Image) -> Image:
-    """The same in every channel."""
-    return cv2.merge([grey, grey, grey])
-
-
 def tinted(grey: Image, colour: Colour) -> Image:
     """A grey picture in a colour."""
-    return cv2.merge([grey * np.float32(part) for part in colour])
+    return grey * planes(colour)
 
 
-def filtered(image: Image, colour: Colour) -> Image:
-    """A coloured picture through a filter of a colour."""
-    return cv2.transform(image, np.diag(colour).astype(np.float32))
+def planes(colour: Colour) -> Image:
+    """One colour as a picture of one pixel, which stretches to any size."""
+    return np.asarray(colour, np.float32)[:, None, None]
 
 
-def mixed(under: Image, over: Image | Colour, share: Image) -> Image:
-    """``over``, a picture or one colour, laid over ``under`` by ``share`` (rows, columns)."""
-    share = np.asarray(share, np.float32)
-    if over.ndim > 1:
-        return under + (over - under) * threefold(share)
-    return under * threefold(1 - share) + tinted(share, over)
+def mixed(under: Image, over: Image, share: Image) -> Image:
+    """``over`` laid over ``under`` by ``share`` (rows, columns)."""
+    return under + (over - under) * share
 
 
-def unit(vectors: Image) -> Image:
-    """Vectors (rows, columns, 3) at length 1."""
-    x, y, z = cv2.split(vectors)
-    return vectors * threefold(1 / np.sqrt(x * x + y * y + z * z))
+def lay_over(under: Image, over: Image, share: Image) -> None:
+    """The same where ``under`` lies."""
+    under += (over - under) * share
+
+
+def clipped(values: Image, low: float, high: float) -> Image:
+    """Within limits, in place: several times as fast as a maximum and a minimum."""
+    return values.clip(low, high, out=values)
+
+
+def step(start: float | Image, end: float | Image, values: Image) -> Image:
+    """0 before ``start``, 1 after ``end``, smooth between; ``end`` may be the lesser."""
+    t = clipped((values - start) / (end - start), 0, 1)
+    return t * t * (3 - 2 * t)

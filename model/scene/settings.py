@@ -37,11 +37,11 @@ class Growth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The 0, 10, 50, 90 and 100 % quantiles."""
     cluster: Annotated[float, Meta(ge=1)] = 5.0
     """Mean number of caps that come up together."""
-    spread: Annotated[float, Meta(ge=0.2, le=2)] = 1.0
+    spread: Annotated[float, Meta(ge=0.2, le=2)] = 0.96
     """Distance of a cap from the one it came up beside, in sums of their radii."""
     height: Annotated[float, Meta(ge=0.4, le=4)] = 1.0
     """Mean height of a cap's middle over the soil, in its own radii."""
-    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.16
+    height_spread: Annotated[float, Meta(ge=0, le=1.5)] = 0.14
     """Standard deviation of that height."""
     lean_deg: Annotated[float, Meta(ge=0, le=60)] = 8.0
     """Standard deviation of a stalk's lean, to either side."""
@@ -90,8 +90,8 @@ class Camera(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """From the soil in the middle of the picture, in image widths."""
     defocus: Annotated[float, Meta(ge=0, le=10)] = 1.6
     """Blur of what lies 150 px out of focus: standard deviation, px."""
-    sharpness: Annotated[float, Meta(ge=0.3, le=3)] = 0.65
-    """Blur of what is in focus: standard deviation, px."""
+    sharpness: Annotated[float, Meta(ge=0.3, le=3)] = 0.75
+    """Blur of what is in focus: standard deviation, px, give or take a fifth."""
     vignette: ShareRange = (0.05, 0.35)
     """Light lost in the corners."""
     noise: Annotated[float, Meta(ge=0, le=10)] = 1.0
@@ -99,6 +99,10 @@ class Camera(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     tint: Annotated[float, Meta(ge=0, le=0.5)] = 0.03
     """Standard deviation of the white balance's error."""
     exposure: Annotated[float, Meta(ge=0.2, le=3)] = 1.0
+    black: ShareRange = (0.0, 0.12)
+    """Share of the picture that it takes for black."""
+    crispness: ShareRange = (0.0, 0.6)
+    """How much it sharpens."""
     jpeg: tuple[Annotated[int, Meta(ge=30, le=100)], Annotated[int, Meta(ge=30, le=100)]] = (84, 95)
 
 
@@ -127,6 +131,8 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
             "soil.pinheads": self.soil.pinheads,
             "camera.pitch_deg": self.camera.pitch_deg,
             "camera.vignette": self.camera.vignette,
+            "camera.black": self.camera.black,
+            "camera.crispness": self.camera.crispness,
             "camera.jpeg": self.camera.jpeg,
         }
         for name, values in ranges.items():

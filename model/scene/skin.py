@@ -13,7 +13,7 @@ import numpy as np
 
 from model.scene import textures
 from model.scene.caps import Cap, Surface
-from model.scene.pixels import Image, filtered, mixed, tinted, unit
+from model.scene.pixels import Image, clipped, lay_over, mixed, planes, step, tinted
 from model.scene.settings import Skin
 
 WHITE = np.array([0.85, 0.825, 0.81], np.float32)
@@ -21,14 +21,15 @@ BROWN = np.array([0.075, 0.165, 0.33], np.float32)
 CREAM = np.array([0.80, 0.93, 1.0], np.float32)
 """What the underside and the flesh keep of white."""
 TAN = np.array([0.16, 0.30, 0.46], np.float32)
-BLOTCH = np.array([0.25, 0.46, 0.66], np.float32)
+BLOTCH = np.array([0.34, 0.53, 0.70], np.float32)
 """What a brown spot keeps of the skin under it."""
+STALK = np.array([0.95, 0.985, 1.0], np.float32)
 DIRT = np.array([0.012, 0.018, 0.026], np.float32)
 BRUISE = np.array([0.12, 0.20, 0.30], np.float32)
 
 
 class Dress(NamedTuple):
-    """Colour (rows, columns, 3) and relief over the smooth surface, px (rows, columns)."""
+    """Colour (3, rows, columns) and relief over the smooth surface, px (rows, columns)."""
 
     colour: Image
     relief: Image
@@ -38,16 +39,19 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     """``brown`` is this cap's own. The same number of draws is made whatever the settings."""
     x, y = _turned(surface, rng)
     chances = rng.random(4)
+    tone, rough, dry = rng.standard_normal(3).tolist()
     seed = rng.integers(2**32)
-    blotch, pores = cv2.split(textures.look_up(textures.skin(), x, y))
-    top = np.clip(surface.rise / cap.dome, 0, 1)
+    blotch, pores, dark, value = textures.look_up_each(textures.skin(), x, y)
 
-    tone = 1 + 0.035 * rng.standard_normal()
-    brownness = np.clip(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)
-    grey = tone + 0.03 * blotch + (0.012 + 0.05 * brown) * pores
-    colour = tinted(grey * (1 - brownness), WHITE) + tinted(grey * brownness, BROWN)
-    colour = mixed(colour, filtered(colour, CREAM), _step(0.16, -0.12, surface.rise) * 0.8)
-    dress = Dress(colour, 0.05 * pores + 0.4 * blotch)
+    grey = (1 + 0.07 * tone) + 0.025 * math.exp(0.6 * dry) * blotch
+    grey += (0.016 + 0.05 * brown) * pores
+    top = clipped(surface.rise * np.float32(1 / cap.dome), 0, 1)
+    brownness = clipped(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)
+    colour = grey * (planes(WHITE) + brownness * planes(BROWN - WHITE))
+    underside = 0.8 * step(0.10, -0.15, surface.rise)
+    colour *= 1 - underside * planes(1 - CREAM)
+    # The larger a cap, the wider its dents and folds, and the deeper.
+    dress = Dress(colour, 0.05 * pores + 0.45 * math.exp(0.5 * rough) * blotch)
 
     marks = np.random.default_rng(seed)
     for chance, share, carry in zip(
@@ -58,47 +62,43 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     ):
         if chance < share:
             dress = carry(dress, cap, surface, marks)
-    return _specks(dress, x, y, density=skin.specks * marks.exponential() / 20)
+    density = skin.specks * marks.exponential() / 20
+    lay_over(dress.colour, planes(DIRT * 2), dark * (value < density * (1 + 0.6 * blotch)))
+    return dress
 
 
 def dress_stalk(surface: Surface, *, brown: float, rng: np.random.Generator) -> Dress:
     """White to cream, streaked lengthwise, soiled at the foot."""
-    ox, oy = rng.uniform(0, textures.SIZE, 2)
-    x, y = (0.25 * surface.skin_x + ox).astype(np.float32), (surface.skin_y + oy).astype(np.float32)
-    streak = textures.look_up(textures.cloud(), x, 4 * y)
-    colour = tinted((1 - 0.25 * brown) * (0.92 + 0.05 * streak), WHITE * CREAM)
-    soiled = 0.35 * _step(0.16, 0.04, surface.rise + 0.03 * textures.look_up(textures.cloud(), x, y))
-    dress = Dress(mixed(colour, 1.3 * DIRT, soiled), 0.2 * streak)
-    return _specks(dress, surface.skin_x, surface.skin_y, density=0.1)
+    ox, oy, soiling = rng.uniform(0, 1, 3)
+    x = 0.25 * surface.skin_x + np.float32(textures.SIZE * ox)
+    y = surface.skin_y + np.float32(textures.SIZE * oy)
+    streak = textures.look_up(textures.cloud(), x, 2.5 * y)
+    colour = (1 - 0.25 * brown) * (0.97 + 0.03 * streak) * planes(WHITE * STALK)
+    lay_over(colour, planes(1.3 * DIRT), 0.5 * soiling * step(0.14, 0.02, surface.rise + 0.03 * streak))
+    return Dress(colour, 0.25 * streak)
 
 
 def bend_normals(normal: Image, relief: Image) -> Image:
-    """The normals of a surface with the slope of a relief added, unit again."""
-    slope_x = cv2.Sobel(relief, cv2.CV_32F, 1, 0, ksize=1, scale=-0.5)
-    slope_y = cv2.Sobel(relief, cv2.CV_32F, 0, 1, ksize=1, scale=-0.5)
-    return unit(normal + cv2.merge([slope_x, slope_y, np.zeros_like(slope_x)]))
-
-
-def _specks(dress: Dress, x: Image, y: Image, *, density: float) -> Dress:
-    dark, value, clumps = cv2.split(textures.look_up(textures.specks(), x, y))
-    return dress._replace(colour=mixed(dress.colour, DIRT * 2, dark * (value < density * (1 + 0.6 * clumps))))
+    """The normals (3, rows, columns) of a surface with the slope of a relief added."""
+    bent, relief = normal.copy(), np.asarray(relief, np.float32)
+    bent[0] -= cv2.Sobel(relief, cv2.CV_32F, 1, 0, ksize=1, scale=0.5)
+    bent[1] -= cv2.Sobel(relief, cv2.CV_32F, 0, 1, ksize=1, scale=0.5)
+    return bent
 
 
 def _scales(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
     """(a) The skin torn into brownish flakes that lift at one edge, more in some places than in others."""
     x, y = _turned(surface, rng, zoom=26 / (0.13 * cap.radius + 5))
     bend = textures.look_up(textures.cloud(), 2 * x, 2 * y)
-    edge, value = cv2.split(textures.look_up(textures.plates(), x + 9 * bend, y - 9 * bend))
-    flake = _step(0.2, 4.5, edge + 1.1 * textures.look_up(textures.grain(), 2 * x, 2 * y))
-    where = _step(
+    edge, value = textures.look_up_each(textures.plates(), x + 9 * bend, y - 9 * bend)
+    flake = step(0.2, 4.5, edge + 1.1 * textures.look_up(textures.grain(), 2 * x, 2 * y))
+    where = step(
         -0.6, 1.2, textures.look_up(textures.cloud(), 0.25 * x, 0.25 * y) + 0.5 * rng.standard_normal()
     )
-    strength = flake * where * _step(0.15, 0.9, value) * rng.uniform(0.5, 0.95)
-    tip = strength * _step(3.5, 0.5, edge)
-    colour = mixed(dress.colour, filtered(dress.colour, TAN * np.float32(1.6)), 0.8 * strength)
-    return Dress(
-        mixed(colour, filtered(dress.colour, TAN * np.float32(0.8)), 0.6 * tip), dress.relief + 1.6 * strength
-    )
+    strength = flake * where * step(0.15, 0.9, value) * rng.uniform(0.5, 0.95)
+    tip = strength * step(3.5, 0.5, edge)
+    colour = mixed(dress.colour, dress.colour * planes(TAN * 1.6), 0.8 * strength)
+    return Dress(mixed(colour, dress.colour * planes(TAN * 0.8), 0.6 * tip), dress.relief + 1.6 * strength)
 
 
 def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -108,10 +108,8 @@ def _spots(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -
         textures.grain(), 0.2 * x, 0.2 * y
     )
     least = rng.uniform(-0.1, 0.9)
-    strength = _step(least, least + 1.3, patches) * rng.uniform(0.7, 1.0)
-    ring = _step(least, least + 0.25, patches) * _step(least + 0.6, least + 0.25, patches)
-    spotted = mixed(dress.colour, filtered(dress.colour, BLOTCH), strength)
-    return dress._replace(colour=mixed(spotted, filtered(spotted, BLOTCH), 0.3 * ring))
+    strength = step(least, least + rng.uniform(1.3, 3.0), patches) * rng.uniform(0.5, 1.0)
+    return dress._replace(colour=mixed(dress.colour, dress.colour * planes(BLOTCH), strength))
 
 
 def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -121,10 +119,10 @@ def _dirt(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) ->
     angle, out = rng.uniform(0, 2 * np.pi), cap.radius * rng.uniform(0.2, 1.0)
     off = np.hypot(surface.skin_x - out * math.cos(angle), surface.skin_y - out * math.sin(angle))
     heap = np.clip(1.4 - off / (cap.radius * rng.uniform(0.15, 0.55)), -1.2, 1.2)
-    strength = _step(1.5, 2.1, lumps + heap)
+    strength = step(1.5, 2.1, lumps + heap)
     colour = tinted(1.8 + 0.9 * np.clip(lumps, -1.5, 2.5), DIRT)
-    smear = 0.45 * _step(0.6, 2.0, 0.5 * lumps + heap)
-    under = mixed(dress.colour, filtered(dress.colour, CREAM * np.float32(0.35)), smear)
+    smear = 0.45 * step(0.6, 2.0, 0.5 * lumps + heap)
+    under = mixed(dress.colour, dress.colour * planes(CREAM * 0.35), smear)
     return Dress(mixed(under, colour, strength), dress.relief + strength * (2.0 + lumps))
 
 
@@ -143,9 +141,9 @@ def _cut(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> 
         np.clip(1 - (along / half) ** 2, 0, 1)
     )
     off = np.abs(across + 0.04 * cap.radius * waver)
-    gash = _step(wide + 0.6, wide - 0.6, off)
-    lip = _step(2.6 * wide + 1.5, wide, off) * (wide > 0.3)
-    colour = mixed(mixed(dress.colour, filtered(dress.colour, BLOTCH), 0.5 * lip), BRUISE * 0.5, gash)
+    gash = step(wide + 0.6, wide - 0.6, off)
+    lip = step(2.6 * wide + 1.5, wide, off) * (wide > 0.3)
+    colour = mixed(mixed(dress.colour, dress.colour * planes(BLOTCH), 0.5 * lip), planes(BRUISE * 0.5), gash)
     return Dress(colour, dress.relief + 1.5 * lip - 3.0 * gash)
 
 
@@ -154,10 +152,10 @@ def _scrape(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) 
     ragged = 0.22 * textures.look_up(textures.cloud(), 5 * along, 5 * across)
     size = cap.radius * rng.uniform(0.12, 0.32)
     off = np.hypot(along / (size * rng.uniform(1.0, 2.2)), across / size) + ragged
-    bare, rim = _step(1.05, 0.9, off), _step(1.2, 1.0, off) * _step(0.75, 1.0, off)
+    bare, rim = step(1.05, 0.9, off), step(1.2, 1.0, off) * step(0.75, 1.0, off)
     fibres = 0.9 + 0.08 * textures.look_up(textures.grain(), 0.4 * along, 1.5 * across)
     flesh = mixed(dress.colour, tinted(fibres * rng.uniform(0.5, 0.85), WHITE * CREAM * CREAM), bare)
-    return Dress(mixed(flesh, BRUISE, 0.35 * rim), dress.relief - 0.06 * cap.radius * bare)
+    return Dress(mixed(flesh, planes(BRUISE), 0.35 * rim), dress.relief - 0.06 * cap.radius * bare)
 
 
 def _bruise(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) -> Dress:
@@ -166,8 +164,8 @@ def _bruise(dress: Dress, cap: Cap, surface: Surface, rng: np.random.Generator) 
     size = cap.radius * rng.uniform(0.2, 0.5)
     off = np.hypot(along / (size * rng.uniform(1.0, 1.8)), across / size) + cloudy
     return Dress(
-        mixed(dress.colour, filtered(dress.colour, BLOTCH), rng.uniform(0.5, 1.0) * _step(1.1, 0.4, off)),
-        dress.relief - 0.03 * cap.radius * _step(1.0, 0.0, off),
+        mixed(dress.colour, dress.colour * planes(BLOTCH), rng.uniform(0.5, 1.0) * step(1.1, 0.4, off)),
+        dress.relief - 0.03 * cap.radius * step(1.0, 0.0, off),
     )
 
 
@@ -188,9 +186,3 @@ def _turned(surface: Surface, rng: np.random.Generator, *, zoom: float = 1.0) ->
     x = surface.skin_x * cosine - surface.skin_y * sine + ox
     y = surface.skin_x * sine + surface.skin_y * cosine + oy
     return x.astype(np.float32), y.astype(np.float32)
-
-
-def _step(start: float | Image, end: float | Image, values: Image) -> Image:
-    """0 before ``start``, 1 after ``end``, smooth between; ``end`` may be the lesser."""
-    t = np.clip((values - start) / (end - start), 0, 1)
-    return t * t * (3 - 2 * t)

@@ -11,13 +11,13 @@ import numpy as np
 from model.scene import textures
 from model.scene.growth import Floats
 from model.scene.layers import strips, window
-from model.scene.pixels import Image, mixed, threefold, tinted
+from model.scene.pixels import Image, clipped, lay_over, planes, step, tinted
 from model.scene.settings import Soil
 from model.scene.view import Ground, View, project
 
-PEAT = np.array([0.0112, 0.0092, 0.0090], np.float32)
+PEAT = np.array([0.0200, 0.0165, 0.0160], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)
-MYCELIUM = np.array([0.62, 0.61, 0.59], np.float32)
+MYCELIUM = np.array([0.66, 0.61, 0.60], np.float32)
 PINHEAD = np.array([0.76, 0.76, 0.75], np.float32)
 STRAW = np.array([0.06, 0.16, 0.28], np.float32)
 ROOT = np.array([0.008, 0.013, 0.02], np.float32)
@@ -26,7 +26,7 @@ CRUMB_REACH = 70.0
 
 
 class Bare(NamedTuple):
-    """The bed without caps: colour (rows, columns, 3), view z and normals."""
+    """The bed without caps: colour and normals (3, rows, columns), view z (rows, columns)."""
 
     colour: Image
     z: Image
@@ -61,14 +61,14 @@ def lay_soil(
     turn = rng.uniform(-0.2, 0.2) + np.pi * rng.integers(2)
     place = _Wander(turn, *rng.uniform(0, textures.SIZE, 2).tolist())
     near = _nearness(feet, view)
-    colour = np.empty((view.height, view.width, 3), np.float32)
+    colour = np.empty((3, view.height, view.width), np.float32)
     height = np.empty((view.height, view.width), np.float32)
     for box in strips(view.height, view.width):
         here = window(box)
         x, y = place.of(ground.x[here], ground.y[here])
-        colour[here], height[here] = _earth(soil, sowing, x, y, near[here])
+        colour[:, *here], height[here] = _earth(soil, sowing, x, y, near[here])
         if sowing.edge is not None:
-            _end_bed(colour[here], height[here], ground.x[here], edge=sowing.edge)
+            _end_bed(colour[:, *here], height[here], ground.x[here], edge=sowing.edge)
     _scatter_litter(colour, height, count=int(rng.poisson(soil.litter)), rng=rng)
     return Bare(colour, ground.z + height, _normals(height))
 
@@ -88,19 +88,25 @@ class _Wander(NamedTuple):
 
 def _earth(soil: Soil, sowing: Sowing, x: Image, y: Image, near: Image) -> tuple[Image, Image]:
     """Colour and height of soil, mycelium and pinheads at places on the tiles."""
-    relief, cloud, grain, strands = cv2.split(textures.look_up(textures.earth(), x, y))
+    relief, cloud, grain, strands = textures.look_up_each(textures.earth(), x, y)
+    # Elsewhere on its tile, so that the two do not repeat together.
+    fluff, wisps, rise, rank = textures.look_up_each(textures.cover(), x + 389, y + 611)
     earth = PEAT + (LOAM - PEAT) * np.float32(sowing.brightness)
-    colour = tinted(np.clip(1.0 + 0.4 * relief + 0.15 * grain, 0.2, 4), earth)
+    colour = tinted(clipped(1.0 + 0.4 * relief + 0.15 * grain + 0.35 * cloud, 0.1, 4), earth)
     height = 0.5 * soil.relief * relief + 0.5 * grain
 
-    fluff = _mycelium(x, y, cloud, strands, near, amount=sowing.mycelium)
-    colour = mixed(colour, tinted(0.8 + 0.15 * grain, MYCELIUM), fluff)
-    height += 3.0 * fluff
+    region = 0.5 * cloud + 0.35 * near
+    white = _mycelium(region, fluff, wisps, strands, amount=sowing.mycelium)
+    lay_over(colour, tinted(0.75 + 0.15 * grain + 0.1 * fluff, MYCELIUM), white)
+    height += white * (2.0 + 1.5 * fluff)
 
-    rise, tone = _pinheads(x, y, cloud, near, amount=sowing.pinheads)
-    stands = rise > 0
-    colour[stands] = PINHEAD * (0.75 + 0.4 * tone[stands])[:, None]
-    return colour, height + rise
+    # A clump needs a region of its own richness, so that they thin out instead of being cut off.
+    rich = 1.8 * sowing.pinheads - 1.35 + 0.6 * cloud + 0.9 * near
+    least = 0.9 * rank + 20 * max(0.0, 0.1 - sowing.pinheads)
+    shown = np.where(rich > least, rise, 0)
+    share = clipped(2 * shown, 0, 1)
+    lay_over(colour, (0.95 + 0.3 * rank - 0.06 * fluff) * planes(PINHEAD), share)
+    return colour, height + 0.9 * shown
 
 
 def _nearness(feet: Floats, view: View) -> Image:
@@ -115,24 +121,13 @@ def _nearness(feet: Floats, view: View) -> Image:
     return cv2.resize(near, (view.width, view.height), interpolation=cv2.INTER_LINEAR)
 
 
-def _mycelium(x: Image, y: Image, cloud: Image, strands: Image, near: Image, *, amount: float) -> Image:
+def _mycelium(region: Image, fluff: Image, wisps: Image, strands: Image, *, amount: float) -> Image:
     """Share of white: strands everywhere a little, felted to clumps in some regions."""
-    felt, fine = cv2.split(textures.look_up(textures.felt(), 2.3 * x, 2.3 * y + 411))
-    region = np.clip(1.6 * amount - 0.75 + 0.5 * cloud + 0.35 * near, 0, 1)
-    clump = np.clip((felt + 2.2 * region - 1.5) * 1.1, 0, 1)
-    web = np.maximum(strands, 0.7 * fine) * np.clip(0.25 * amount + 1.2 * region, 0, 1)
-    return np.clip(np.maximum(0.9 * web, clump * (0.3 + 0.8 * fine + 0.6 * strands)), 0, 1) * min(
-        0.95, 8 * amount
-    )
-
-
-def _pinheads(x: Image, y: Image, cloud: Image, near: Image, *, amount: float) -> tuple[Image, Image]:
-    """Height and tone of pinheads and crumbs, thickest around the caps."""
-    rise, tone = cv2.split(textures.look_up(textures.crumbs(), x, y))
-    # Each crumb needs a region of its own richness, so that they thin out instead of being cut off.
-    region = 1.8 * amount - 1.35 + 0.75 * cloud + 0.9 * near
-    least = 0.9 * tone + 20 * max(0.0, 0.1 - amount)
-    return np.where(region > least, 1.25 * rise, 0), tone
+    rich = clipped(1.6 * amount - 0.75 + region, 0, 1)
+    clump = clipped((fluff + 2.2 * rich - 1.5) * 1.1, 0, 1)
+    web = cv2.max(strands, 0.8 * wisps) * clipped(0.25 * amount + 1.2 * rich, 0, 1)
+    white = cv2.max(0.9 * web, clump * (0.3 + 0.8 * wisps + 0.6 * strands))
+    return step(0.12, 0.85, white) * np.float32(min(0.95, 8 * amount))
 
 
 def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.Generator) -> None:
@@ -145,7 +140,8 @@ def _scatter_litter(colour: Image, height: Image, *, count: int, rng: np.random.
         line = np.rint(16 * (start + np.vstack([[0, 0], np.cumsum(steps, axis=0)]))).astype(np.int32)
         thick = int(rng.integers(1, 4))
         tone = (STRAW if rng.random() < 0.4 else ROOT) * rng.uniform(0.5, 1.3)
-        cv2.polylines(colour, [line], False, tone.tolist(), thick, cv2.LINE_8, 4)
+        for plane, part in zip(colour, tone.tolist(), strict=True):
+            cv2.polylines(plane, [line], False, part, thick, cv2.LINE_8, 4)
         raised = np.zeros_like(height[:1, :1])
         left, top = np.maximum(line.min(axis=0) // 16 - 4, 0)
         right, bottom = line.max(axis=0) // 16 + 5
@@ -163,13 +159,12 @@ def _end_bed(colour: Image, height: Image, x: Image, *, edge: tuple[float, float
     where, side = edge
     beyond = (x - where) * side + 0.3 * height
     board = (beyond > 0) & (beyond < 12)
-    colour[board] = PEAT + LOAM * (0.3 + 0.06 * np.abs(height[board]))[:, None]
-    colour *= threefold(np.where(beyond >= 12, np.float32(0.04), np.float32(1)))
+    colour[:, board] = PEAT[:, None] + LOAM[:, None] * (0.3 + 0.06 * np.abs(height[board]))
+    colour *= np.where(beyond >= 12, np.float32(0.04), np.float32(1))
     height -= np.clip(beyond, 0, 60)
 
 
 def _normals(height: Image) -> Image:
-    slope_x = cv2.Sobel(height, cv2.CV_32F, 1, 0, ksize=3, scale=1 / 8)
-    slope_y = cv2.Sobel(height, cv2.CV_32F, 0, 1, ksize=3, scale=1 / 8)
-    length = np.sqrt(slope_x * slope_x + slope_y * slope_y + 1)
-    return cv2.merge([-slope_x / length, -slope_y / length, 1 / length])
+    slope_x = cv2.Sobel(height, cv2.CV_32F, 1, 0, ksize=3, scale=-1 / 8)
+    slope_y = cv2.Sobel(height, cv2.CV_32F, 0, 1, ksize=3, scale=-1 / 8)
+    return np.stack([slope_x, slope_y, np.ones_like(height)])

@@ -10,11 +10,13 @@ import numpy as np
 
 from model.scene.caps import Box, Surface
 from model.scene.growth import Stand
-from model.scene.pixels import Image, unit
+from model.scene.pixels import Image, clipped
 from model.scene.view import View, project
 
-THICKNESS = (0.36, 0.52)
-"""Half the width under the cap, in radii of the cap: least and most."""
+THICKNESS = (0.42, 0.66)
+"""Half the width under the cap, in radii of the cap: least and most, of a grown one."""
+BUD = 0.3
+"""How much more of them it is of the youngest, whose stalks are as stout as their caps are wide."""
 
 
 class Stalk(NamedTuple):
@@ -34,7 +36,8 @@ def shape_stalks(stand: Stand, view: View, rng: np.random.Generator) -> list[Sta
     feet = np.column_stack([stand.foot, np.zeros(len(stand.radius))])
     foot, _, foot_z = project(view, feet)
     head, scale, head_z = project(view, stand.place)
-    narrow = stand.radius * scale * rng.uniform(*THICKNESS, len(scale))
+    young = np.clip((50.0 - 2 * stand.radius) / 30.0, 0, 1)
+    narrow = stand.radius * scale * (rng.uniform(*THICKNESS, len(scale)) + BUD * young)
     wide = narrow * rng.uniform(1.0, 1.35, len(scale))
     return [
         Stalk(
@@ -67,25 +70,25 @@ def cover_of_stalk(stalk: Stalk, box: Box) -> Image:
 def surface_of_stalk(stalk: Stalk, box: Box) -> Surface:
     """A tapering cylinder with a rounded foot over the pixels of a box."""
     at = _measured(stalk, box)
-    side = np.clip(at.aside / at.half, -1, 1)
-    end = np.clip(at.beyond / at.half, -1, 1)
-    front = np.sqrt(np.maximum(1 - side**2 - end**2, 0))
+    side = clipped(at.aside / at.half, -1, 1)
+    end = clipped(at.beyond / at.half, -1, 1)
+    front = np.sqrt((1 - side * side - end * end).clip(0))
 
     climb = stalk.head[2] - stalk.foot[2]
     full = math.hypot(at.length, climb)
     steep, level = climb / full, at.length / full
     lean = end - front * steep
-    normal = cv2.merge(
+    normal = np.stack(
         [
             lean * at.ahead[0] - side * at.ahead[1],
             lean * at.ahead[1] + side * at.ahead[0],
-            np.maximum(front * level + np.maximum(-end, 0) * steep, 0.05),
+            (front * level + (-end).clip(0) * steep).clip(0.05),
         ]
     )
     return Surface(
         cover=at.cover,
         z=stalk.foot[2] + climb * at.up + at.half * front * level,
-        normal=unit(normal),
+        normal=normal,
         skin_x=at.up * full,
         skin_y=np.arcsin(side) * at.half,
         rise=at.up,
@@ -116,8 +119,8 @@ def _measured(stalk: Stalk, box: Box) -> _Measured:
     ahead_x, ahead_y = run_x / length, run_y / length
     along = dx * ahead_x + dy * ahead_y
     aside = dy * ahead_x - dx * ahead_y
-    up = np.clip(along / length, 0, 1)
+    up = clipped(along / np.float32(length), 0, 1)
     beyond = along - up * length
     half = stalk.wide + (stalk.narrow - stalk.wide) * up
-    cover = np.clip(half - np.hypot(aside, beyond) + 0.5, 0, 1)
+    cover = clipped(half - cv2.magnitude(aside, beyond) + 0.5, 0, 1)
     return _Measured((ahead_x, ahead_y), length, up, aside, beyond, half, cover)

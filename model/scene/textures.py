@@ -6,7 +6,7 @@ random place, turned a random way, so that two caps never carry the same skin.
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import cv2
@@ -18,6 +18,8 @@ Tile = NDArray[Any]
 
 SIZE = 1024
 SPECK_CELL = 16
+CLUMPS = 1000
+"""Of crumbs on a tile."""
 
 
 def look_up(tile: Tile, x: Tile, y: Tile) -> Tile:
@@ -26,6 +28,11 @@ def look_up(tile: Tile, x: Tile, y: Tile) -> Tile:
     x = x - side * np.floor(x / side)
     y = y - side * np.floor(y / side)
     return cv2.remap(tile, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+
+
+def look_up_each(tile: Tile, x: Tile, y: Tile) -> tuple[Tile, ...]:
+    """The same, every channel a picture of its own."""
+    return tuple(cv2.split(look_up(tile, x, y)))
 
 
 @cache
@@ -63,8 +70,8 @@ def grain() -> Tile:
 
 @cache
 def skin() -> Tile:
-    """Channels: blotches and pores; each mean 0, deviation 1."""
-    return np.dstack([cloud(), _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8)])
+    """Channels: blotches and pores, each mean 0, deviation 1; how dark a speck is, and a value a speck."""
+    return np.dstack([cloud(), _noise(seed=41, slope=0.2, coarsest=7.0, finest=1.8), *_specks()])
 
 
 @cache
@@ -74,9 +81,28 @@ def earth() -> Tile:
 
 
 @cache
-def felt() -> Tile:
-    """Channels: regions and strands, to be looked up finer than ``earth`` and turned."""
-    return np.dstack([cloud(), threads()])
+def cover() -> Tile:
+    """What lies on earth. Channels: fluff, mean 0, deviation 1; wisps as ``threads``, finer; height of
+    crumbs, px, and a value a crumb."""
+    fluff = _noise(seed=45, slope=1.5, coarsest=130.0, finest=3.0)
+    wisps = np.zeros((SIZE + 1, SIZE + 1), np.float32)
+    for octave, size in enumerate((50.0, 26.0, 14.0)):
+        wave = _noise(seed=46 + octave, slope=1.3, coarsest=2 * size, finest=2.5)
+        wisps = np.maximum(wisps, np.exp(-((np.abs(wave) / 0.13) ** 1.2)) * (1.0 - 0.15 * octave))
+    return np.dstack([fluff, wisps, *_crumbs()]).astype(np.float32)
+
+
+@lru_cache(maxsize=2)
+def sensor(width: int) -> Tile:
+    """Noise of a sensor, in brightness and colour, smeared as demosaicing does.
+
+    (3, SIZE, SIZE + width), so that a picture of this width fits in anywhere.
+    """
+    rng = np.random.default_rng(80)
+    grain = cv2.GaussianBlur(rng.standard_normal((SIZE, SIZE), np.float32), (0, 0), 0.7)
+    blots = cv2.resize(rng.standard_normal((SIZE // 2, SIZE // 2, 3), np.float32), (SIZE, SIZE))
+    noise = (2 * grain[..., None] + 0.6 * blots).transpose(2, 0, 1)
+    return np.ascontiguousarray(np.pad(noise, ((0, 0), (0, 0), (0, width)), mode="wrap"), dtype=np.float32)
 
 
 @cache
@@ -96,12 +122,10 @@ def plates() -> Tile:
     return _closed(np.dstack([distance[inner, inner], value[inner, inner]]))
 
 
-@cache
-def specks() -> Tile:
-    """Specks one to a cell of SPECK_CELL px: channel 0 how dark, channel 1 a value a cell in [0, 1],
-    channel 2 clouds by which they gather."""
+def _specks() -> list[Tile]:
+    """Specks one to a cell of SPECK_CELL px: how dark, and a value a cell in [0, 1]."""
     rng = np.random.default_rng(70)
-    cells = 512 // SPECK_CELL
+    cells = SIZE // SPECK_CELL
     value = np.kron(rng.random((cells, cells)), np.ones((SPECK_CELL, SPECK_CELL)))
     dark = np.zeros_like(value)
     offset = np.arange(SPECK_CELL) + 0.5 - SPECK_CELL / 2
@@ -113,40 +137,48 @@ def specks() -> Tile:
             along, across = dx * np.cos(angle) + dy * np.sin(angle), dy * np.cos(angle) - dx * np.sin(angle)
             spot = np.clip(1.4 - np.hypot(along / long, across / wide), 0, 1) * rng.uniform(0.5, 1.0)
             dark[row * SPECK_CELL :, column * SPECK_CELL :][:SPECK_CELL, :SPECK_CELL] = spot
-    return _closed(np.dstack([dark, value, cloud()[: len(dark), : len(dark)]]))
+    return [_closed(dark), _closed(value)]
 
 
-@cache
-def crumbs() -> Tile:
-    """Pinheads and white crumbs: channel 0 their height over the soil, px, channel 1 a value each."""
+def _crumbs() -> list[Tile]:
+    """Pinheads and white crumbs, grown together in clumps: their height over the soil, px, and a value in
+    [0, 1] that is much the same throughout a clump."""
     rng = np.random.default_rng(60)
-    side, count = 640, 4000
-    height = np.zeros((side, side), np.float32)
-    value = np.zeros((side, side), np.float32)
-    middle = rng.uniform(0, side, (count // 9, 2))
-    for x, y in middle[rng.integers(0, len(middle), count)] + rng.normal(0, 7.0, (count, 2)):
-        radius = float(np.clip(rng.lognormal(0.55, 0.45), 0.9, 4.4))
-        _raise_crumb(height, value, x, y, radius=radius, rng=rng)
+    height = np.zeros((SIZE, SIZE), np.float32)
+    value = np.zeros((SIZE, SIZE), np.float32)
+    for _ in range(CLUMPS):
+        place, rank = rng.uniform(0, SIZE, 2), rng.random()
+        heading = rng.uniform(0, 2 * np.pi)
+        size = rng.lognormal(0.0, 0.3)
+        for _ in range(int(rng.geometric(1 / 9))):
+            # Clumps follow strands: they grow on in about the direction they came from.
+            heading += rng.normal(0, 0.9)
+            place = place + size * rng.uniform(1.0, 4.0) * np.array([np.cos(heading), np.sin(heading)])
+            radius = float(np.clip(size * rng.lognormal(0.75, 0.45), 0.9, 6.0))
+            own = float(np.clip(rank + 0.06 * rng.standard_normal(), 0.002, 1))
+            _raise_crumb(height, value, *(place + rng.normal(0, 2.0, 2)), radius=radius, own=own, rng=rng)
+    knobs = _noise(seed=61, slope=0.8, coarsest=14.0, finest=2.5)[:-1, :-1]
+    height *= np.clip(1 + 0.28 * knobs, 0.1, 2)
     # Each value reaches a little beyond its crumb, lest it fade at the rim between pixels.
     beyond = cv2.dilate(value, np.ones((5, 5), np.uint8))
-    return _closed(np.dstack([height, np.where(height > 0, value, beyond)]))
+    return [_closed(height), _closed(np.where(height > 0, value, beyond))]
 
 
 def _raise_crumb(
-    height: Tile, value: Tile, x: float, y: float, *, radius: float, rng: np.random.Generator
+    height: Tile, value: Tile, x: float, y: float, *, radius: float, own: float, rng: np.random.Generator
 ) -> None:
     reach = int(radius * 1.5) + 2
     columns = np.arange(int(x) - reach, int(x) + reach + 1)
     rows = np.arange(int(y) - reach, int(y) + reach + 1)
     dx, dy = np.meshgrid(columns - x, rows - y)
-    stretch, angle = rng.uniform(1.0, 1.5), rng.uniform(0, np.pi)
+    stretch, angle = rng.uniform(1.0, 1.6), rng.uniform(0, np.pi)
     along = (dx * np.cos(angle) + dy * np.sin(angle)) / stretch
     across = (dy * np.cos(angle) - dx * np.sin(angle)) * stretch
     dome = 1.3 * np.sqrt(np.maximum(radius**2 - along**2 - across**2, 0))
     where = np.ix_(rows % len(height), columns % len(height))
     higher = dome > height[where]
     height[where] = np.where(higher, dome, height[where])
-    value[where] = np.where(higher, rng.random(), value[where])
+    value[where] = np.where(higher, own, value[where])
 
 
 def _noise(*, seed: int, slope: float, coarsest: float, finest: float) -> Tile:

@@ -82,12 +82,12 @@ def see_ground(view: View) -> Ground:
     y = np.arange(view.height)[:, None] + 0.5 - view.height / 2
     # The camera is never turned about its own axis, so how far the soil is depends on the row alone.
     reach = -view.eye[2] / (view.distance * view.ahead[2] + y * view.down[2])
-    bed_x = view.eye[0] + (reach * x).astype(np.float32)
+    bed_x = np.float32(view.eye[0]) + reach.astype(np.float32) * x.astype(np.float32)
     bed_y = view.eye[1] + reach * (view.distance * view.ahead[1] + y * view.down[1])
     z = view.distance - reach * view.distance
     shape = (view.height, view.width)
     rows = [np.broadcast_to(row.astype(np.float32), shape) for row in (bed_y, z)]
-    return Ground(bed_x.astype(np.float32), rows[0], rows[1])
+    return Ground(bed_x, rows[0], rows[1])
 
 
 def bounds_of_ground(ground: Ground) -> Rectangle:

@@ -23,6 +23,7 @@ def light(*, elevation_deg: float) -> Light:
         softness=0.05,
         slant=0.0,
         height=1000.0,
+        gloss=0.0,
         dimness=1.0,
     )
 
@@ -31,10 +32,10 @@ def lit_plane(source: Light, *, height: float) -> np.ndarray:
     z = np.zeros((ROWS, COLUMNS), np.float32)
     z[BLOCK] = height
     shade = cast_shade(z, z > 0, source)
-    flat = np.dstack([np.zeros_like(z), np.zeros_like(z), np.ones_like(z)])
-    colour = np.full((ROWS, COLUMNS, 3), 0.5, np.float32)
+    flat = np.stack([np.zeros_like(z), np.zeros_like(z), np.ones_like(z)])
+    colour = np.full((3, ROWS, COLUMNS), 0.5, np.float32)
     box = (0, 0, COLUMNS, ROWS)
-    return shine(colour, flat, z, box=box, light=source, shade=shade, glow=0.0)[..., 1]
+    return shine(colour, flat, z, box=box, light=source, shade=shade)[1]
 
 
 def test_a_shadow_falls_away_from_the_light_as_far_as_the_height_says() -> None:
@@ -58,7 +59,7 @@ def test_the_foot_of_a_block_is_darker_than_open_ground() -> None:
     assert lit[80, 97] < 0.92 * lit[20, 20]
 
 
-@pytest.mark.parametrize(("source", "least", "most"), [("top", 55, 90), ("side", 10, 40), ("dark", 35, 85)])
+@pytest.mark.parametrize(("source", "least", "most"), [("top", 48, 80), ("side", 10, 40), ("dark", 35, 85)])
 def test_each_light_stands_where_its_name_says(source: LightSource, least: float, most: float) -> None:
     for seed in range(20):
         drawn = draw_light(source, np.random.default_rng(seed))
