@@ -48,15 +48,21 @@ def scene(
     real: Annotated[
         Path | None, typer.Option(help="Folder of real photos with checked.json, to compare with.")
     ] = None,
+    sheet: Annotated[
+        Path | None, typer.Option(help="PNG file for twelve beds, and the real photos, on one sheet.")
+    ] = None,
     quick: Quick = False,
     as_json: AsJson = False,
 ) -> None:
     """Time the renderer of beds, and measure its beds against real ones.
 
-    Example: `fairyring bench scene --json`
+    Example: `fairyring bench scene --real photos --sheet sheet.png`
     """
     from app.bench import scene as bench
+    from app.bench.sheet import draw_sheet
 
+    if sheet is not None:
+        draw_sheet(sheet, real=real)
     _print("scene", bench.run(quick=quick, real=real), as_json=as_json)
 
 
