@@ -12,7 +12,8 @@ SIGMA = 2.0
 def points_nms(scores: Tensor, *, window: int) -> Tensor:
     """(B, rows, columns) with every cell zeroed that is not the largest of its window.
 
-    Of window 2: of itself and the cells to the left, above, and above left, as the reference pools. 1 keeps all.
+    Of window 2: of itself and the cells to the left, above, and above left, as the reference pools. 1 keeps
+    all.
     """
     before = window // 2
     padded = F.pad(scores[:, None], (before, window - 1 - before, before, window - 1 - before), value=-1.0)
@@ -23,9 +24,12 @@ def points_nms(scores: Tensor, *, window: int) -> Tensor:
 def matrix_nms(masks: Tensor, scores: Tensor, *, sigma: float = SIGMA) -> Tensor:
     """Scores lowered by how much each mask is covered by better ones.
 
-    ``masks`` (n, h, w) bool and ``scores`` (n,) in falling order, one category → (n,). With iou_ij of mask j and
-    a better i, and c_i the largest IoU of i with one still better: score_j · min_i exp(-σ (iou_ij² - c_i²)).
+    ``masks`` (n, h, w) bool and ``scores`` (n,) in falling order, one category → (n,). With iou_ij of mask
+    j and a better i, and c_i the largest IoU of i with one still better: score_j · min_i exp(-σ (iou_ij² -
+    c_i²)).
     """
+    if not len(scores):
+        return scores
     flat = masks.flatten(1).float()
     overlap = flat @ flat.T
     area = flat.sum(1)
