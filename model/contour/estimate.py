@@ -1,4 +1,4 @@
-"""Priors from checked labels: how round caps are, and how large against what is seen of them."""
+"""Priors from checked labels: how round caps are, how large against what is seen, how noisy their masks."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from msgspec import structs
 
 from model.contour.coco import ContourError, silhouettes_of
 from model.contour.harmonic import Array
+from model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
 from model.contour.priors import DEFAULT, Priors
 from model.contour.together import Together, fit_together
 
@@ -24,7 +25,8 @@ def estimate_priors(document: Any, *, source: str) -> Priors:
 
     Roundness comes from the whole outlines where they are given, else from the caps in full view; the
     harmonics from the caps in full view; size from the whole outlines against the circles around what is
-    visible. ``source`` is kept with the figures. Raises ContourError where there are too few caps.
+    visible; noise from the free rims of all. ``source`` is kept with the figures. Raises ContourError where
+    there are too few caps.
     """
     if not isinstance(document, dict) or not isinstance(document.get("annotations"), list):
         raise ContourError("This is not a COCO document: it needs lists of images and of annotations.")
@@ -32,7 +34,7 @@ def estimate_priors(document: Any, *, source: str) -> Priors:
     for annotation in document["annotations"]:
         if not annotation.get("iscrowd") and not annotation.get("ignore"):
             groups[annotation["image_id"]].append(annotation)
-    squares, stretches, sizes = [], [], []
+    squares, stretches, sizes, rims, ripples = [], [], [], [], []
     for image in document.get("images", []):
         width, height = image["width"], image["height"]
         annotations = groups[image["id"]]
@@ -42,6 +44,8 @@ def estimate_priors(document: Any, *, source: str) -> Priors:
             continue
         together = fit_together([caps[index] for index in there], DEFAULT, width=width, height=height)
         squares.append(_squares_in_view(together))
+        rims.append(together.fit.residual[together.contact.free])
+        ripples.append(ripple_powers(together.rims, together.fit, together.evidence).ravel())
         for place, index in enumerate(there):
             axes = _axes(annotations[index])
             if axes is not None:
@@ -49,7 +53,19 @@ def estimate_priors(document: Any, *, source: str) -> Priors:
                 radius = log(axes[0] * axes[1]) / 2
                 sizes.append(radius - float(together.around.log_radius[place]))
     none = np.zeros((0, 2 + 2 * len(DEFAULT.wobble)))
-    return _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
+    priors = _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
+    return _with_noise(priors, np.concatenate(rims), np.concatenate(ripples))
+
+
+def _with_noise(priors: Priors, residual: Array, ripples: Array) -> Priors:
+    """With the robust deviation of the free rims' points, and the length that explains the ripples' power."""
+    noise = float(np.median(np.abs(residual))) / 0.6745 if len(residual) else priors.noise
+    beyond = noise**2 - PERFECT
+    if beyond < PERFECT or len(ripples) == 0:
+        # Of the grid's own noise there is nothing to tell the length of other noise by.
+        return structs.replace(priors, noise=max(noise, 0.05))
+    length = RIPPLE_GAIN * float(np.median(ripples)) / log(2) / beyond
+    return structs.replace(priors, noise=noise, noise_length=min(max(length, 1.0), 200.0))
 
 
 def _squares_in_view(together: Together) -> Array:

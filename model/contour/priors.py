@@ -26,6 +26,8 @@ class Priors(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Of log(radius / radius of the circle around what is visible)."""
     size_shift: float = 0.0
     """Mean of the same."""
+    noise: float = 0.3
+    """Standard deviation of a rim point, pixels; leant on where an image shows too little rim."""
     noise_floor: float = 0.2
     """Power of a perfect mask's outline noise, px³: variance × length of outline per independent sample."""
     noise_length: float = 36.0
@@ -52,7 +54,8 @@ def read_priors(path: Path) -> Priors:
         raise PriorsError(f"{path} cannot be read: {error.strerror}.") from error
     except msgspec.MsgspecError as error:
         raise PriorsError(f"{path} holds no priors ({error}). Make some with fairyring priors.") from error
-    widths = (priors.stretch, priors.stretch_hidden, priors.size, priors.noise_floor, *priors.wobble)
+    widths = (priors.stretch, priors.stretch_hidden, priors.size, *priors.wobble)
+    widths += (priors.noise, priors.noise_floor)
     if not all(isfinite(width) and width > 0 for width in widths) or priors.noise_length < 0:
         raise PriorsError(f"{path} has a width that is not above zero. Make it again with fairyring priors.")
     return priors

@@ -15,6 +15,7 @@ import numpy as np
 
 from model.contour.contact import Contact, contact_of
 from model.contour.harmonic import Array, Evidence, Fit, Outlines, fit_outlines
+from model.contour.noise import FIRST_NOISE, LEAST_NOISE, deviation, expected_power, power
 from model.contour.order import Meetings, meetings_of, seen_share
 from model.contour.priors import Priors
 from model.contour.rims import Rims, rims_of
@@ -27,11 +28,6 @@ DECISIONS = 2
 FIRST_SOFTNESS = (3.0, 2.0, 1.0, 1.0)
 NEXT_SOFTNESS = (1.0, 1.0)
 """Steps of the first fit and of those after decisions on the borders."""
-FIRST_NOISE = 0.8
-LEAST_NOISE = 0.25
-"""Standard deviations of a rim point, pixels."""
-PERFECT = 0.018
-"""Variance of a rim point of a perfect mask, from the pixel grid alone, px²."""
 HIDDEN_DOUBT = 0.6
 """Standard deviations grow by this share for a rim that is all hidden: borders may have been misjudged."""
 
@@ -70,7 +66,7 @@ def fit_together(caps: Sequence[Silhouette], priors: Priors, *, width: int, heig
     seen = np.where(contact.neighbour >= 0, FIRST_GLANCE, contact.free)
     evidence = Evidence(
         points=rims.points,
-        weight=rims.spacing / _noise_power(FIRST_NOISE, priors),
+        weight=rims.spacing / expected_power(FIRST_NOISE, priors),
         seen=seen,
         noise=FIRST_NOISE,
         size=around.log_radius + priors.size_shift,
@@ -78,11 +74,11 @@ def fit_together(caps: Sequence[Silhouette], priors: Priors, *, width: int, heig
     )
     fit = fit_outlines(evidence, around, priors, softness=FIRST_SOFTNESS)
     for _ in range(DECISIONS):
-        noise = _noise(fit.residual[contact.free], evidence.noise)
+        noise = deviation(fit, contact, priors, before=evidence.noise)
         meetings = meetings_of(contact, rims, fit, noise=noise)
         evidence = replace(
             evidence,
-            weight=rims.spacing / _noise_power(noise, priors),
+            weight=rims.spacing / power(rims, fit, evidence, priors, noise=noise),
             seen=seen_share(contact, meetings),
             noise=max(noise, LEAST_NOISE),
             stretch=_stretch(fit, priors) * priors.stretch_hidden,
@@ -104,19 +100,6 @@ def _enclosing(rims: Rims, priors: Priors) -> Outlines:
         log_radius=np.log(np.maximum([radius for _, radius in around], 0.5)),
         shape=np.zeros((len(origin), 2 + 2 * len(priors.wobble))),
     )
-
-
-def _noise(residual: Array, before: float) -> float:
-    """The standard deviation of rim points: robust, and leaning on a usual one where there are few."""
-    if len(residual) == 0:
-        return before
-    deviation = float(np.median(np.abs(residual))) / 0.6745
-    return float(np.sqrt((deviation**2 * len(residual) + 20 * 0.3**2) / (len(residual) + 20)))
-
-
-def _noise_power(noise: float, priors: Priors) -> float:
-    """Variance × length of outline per independent sample, px³: small for a pixel grid's noise alone."""
-    return priors.noise_floor + priors.noise_length * max(noise**2 - PERFECT, 0)
 
 
 def _stretch(fit: Fit, priors: Priors) -> float:

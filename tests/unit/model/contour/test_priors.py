@@ -40,6 +40,48 @@ def test_priors_come_close_to_the_shapes_that_the_caps_were_made_with():
     assert 0.05 <= priors.size < 0.4
 
 
+def wavering(deviation: float, *, seed: int) -> np.ndarray:
+    """How far a rim of radius 40 lies outside its circle, at 1000 angles: smooth over 4.8 px, px."""
+    rng = np.random.default_rng(seed)
+    waves = np.arange(501)
+    spectrum = np.exp(-0.5 * (waves * 4.8 / 40) ** 2)
+    wavering = np.fft.irfft(spectrum * np.fft.rfft(rng.normal(size=1000)))
+    return deviation * wavering / np.sqrt(2 * np.sum(spectrum[1:] ** 2) / 1000 + spectrum[0] ** 2 / 1000)
+
+
+def noisy_discs(deviation: float) -> tuple[dict, np.ndarray]:
+    """Labels of 3 × 24 discs that touch nobody, and their waverings (72, 1000)."""
+    angles = np.arange(1000) * 2 * np.pi / 1000
+    waverings = np.array([wavering(deviation, seed=seed) for seed in range(72)])
+    annotations = []
+    for number, away in enumerate(waverings):
+        x, y = 55 + 104.3 * (number % 6), 60 + 118.7 * (number // 6 % 4)
+        ring = np.column_stack([x + (40 + away) * np.cos(angles), y + (40 + away) * np.sin(angles)])
+        annotations.append({"id": number, "image_id": number // 24, "segmentation": [ring.ravel().tolist()]})
+    images = [{"id": i, "file_name": f"{i}.png", "width": 640, "height": 480} for i in range(3)]
+    return {"images": images, "annotations": annotations}, waverings
+
+
+@pytest.mark.parametrize("deviation", [0.6, 1.0])
+def test_noise_is_what_is_left_of_the_known_wavering_by_outlines_of_five_harmonics(deviation: float):
+    document, waverings = noisy_discs(deviation)
+    priors = estimate_priors(document, source="discs")
+    spectrum = np.fft.rfft(waverings)
+    # An outline follows the waves up to the fifth; a rim point is the mean of a 48th of the rim.
+    spectrum[:, :6] = 0
+    left = np.fft.irfft(spectrum * np.sinc(np.arange(501) / 48), n=1000)
+    assert priors.noise == pytest.approx(left.std(), rel=0.15)
+    # Variance times the length per independent sample is that of the wavering: √(4π) · 4.8 px.
+    power = priors.noise_length * (priors.noise**2 - 0.018)
+    assert power == pytest.approx(deviation**2 * np.sqrt(4 * np.pi) * 4.8, rel=0.4)
+
+
+def test_perfect_masks_are_hardly_noisy_and_leave_the_length_as_it_is():
+    priors = estimate_priors(noisy_discs(0)[0], source="discs")
+    assert 0.05 <= priors.noise < 0.2
+    assert priors.noise_length == DEFAULT.noise_length
+
+
 def test_too_few_caps_are_refused():
     with pytest.raises(ContourError, match="30 caps"):
         estimate_priors(labels(1) | {"annotations": labels(1)["annotations"][:3]}, source="three caps")
