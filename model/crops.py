@@ -1,4 +1,6 @@
-"""Crops at native scale, turned and brightened, with the caps in them: section 3's augmentations, on the fly."""
+"""Crops at native scale, turned and brightened, with the caps in them: section 3's augmentations, on the
+fly.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +14,7 @@ from numpy.typing import NDArray
 
 from model.augment import Affine, Augmentation, motion_of, move_outline
 from model.geometry import Outline, bounds_of_outline
+from model.network.config import FRAME
 from model.raster import Mask, mask_of_outline
 
 LEAST_VISIBLE = 24
@@ -44,7 +47,8 @@ class Crop:
     photo: NDArray[np.uint8]
     """(side, side, 3)."""
     origin: tuple[float, float]
-    """Its first corner, from the middle of the photo."""
+    """Where its first corner is said to lie, from the middle of a photo: anywhere a photo may reach, whatever
+    this photo's own shape, so that wide and tall ones are learnt alike."""
     masks: NDArray[np.uint8]
     """(n, side, side), 1 on the visible cap."""
     boxes: NDArray[np.float64]
@@ -79,10 +83,10 @@ def cut_crop(
         if mask is not None:
             unlearnt |= mask.astype(bool)
     places = np.array([_box_and_mass_centre(mask) for mask in masks], dtype=np.float64).reshape(-1, 6)
-    middle = np.array([width, height]) * scale / 2
+    reach = FRAME / 2
     return Crop(
         photo=_photograph(photo, motion, augmentation.brightness, config, rng),
-        origin=tuple((corner - middle).tolist()),
+        origin=tuple(rng.uniform(-reach, max(reach - config.side, -reach), 2).tolist()),
         masks=np.stack(masks) if masks else np.zeros((0, config.side, config.side), np.uint8),
         boxes=places[:, :4],
         centres=places[:, 4:],

@@ -116,7 +116,6 @@ def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
     return Caps(
         masks=masks,
         targets=targets if soft else (targets >= 0.5).float(),
-        boxes=torch.from_numpy(crop.boxes).float(),
         cells=[torch.from_numpy(level) for level in cells],
     )
 

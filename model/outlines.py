@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import cv2
 import numpy as np
 from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
 from model.geometry import Outline, Points, part_of_points, signed_area
-from model.tracing import join_holes
+from model.tracing import fit_polygon, join_holes
 
 TOLERANCE = 0.2
 """How far an outline may lie from the level line, pixels: it is given fewer vertices."""
@@ -26,8 +28,7 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
     padded = np.pad(np.clip(logits, -MOST_LOGIT, MOST_LOGIT), 1, constant_values=-MOST_LOGIT)
     filled = contour_generator(z=padded, fill_type=FillType.OuterOffset).filled(0.0, np.inf)
     loops = [
-        [points[first:last] for first, last in zip(ends, ends[1:], strict=False)]
-        for points, ends in zip(*filled, strict=True)
+        [points[first:last] for first, last in pairwise(ends)] for points, ends in zip(*filled, strict=True)
     ]
     areas = [abs(signed_area(rings[0])) for rings in loops]
     outline = []
@@ -44,6 +45,13 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
 
 
 def _simplified(ring: Points) -> Points:
-    """A closed level line with fewer vertices; its last one repeats the first."""
-    points = cv2.approxPolyDP(ring[:-1].astype(np.float32)[:, None], TOLERANCE, closed=True)
-    return points.reshape(-1, 2).astype(np.float64)
+    """A closed level line, whose last vertex repeats the first, with fewer vertices.
+
+    They are fitted: chords between points of a cap's rim would all run inside of it.
+    """
+    points = ring[:-1]
+    exact = points.astype(np.float32)
+    kept = cv2.approxPolyDP(exact[:, None], TOLERANCE, closed=True).reshape(-1, 2)
+    places = {tuple(point): nth for nth, point in enumerate(exact.tolist())}
+    knots = np.unique([places[tuple(point)] for point in kept.tolist()])
+    return fit_polygon(points, knots) if len(knots) >= 3 else points[knots]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from msgspec import Struct
 
 SIDE = 1280
@@ -11,7 +13,9 @@ OVERLAP = 256
 
 
 class Tile(Struct, frozen=True, kw_only=True):
-    """One piece: x, y, width, height; and the part of it whose caps are taken from it, in photo coordinates."""
+    """One piece: x, y, width, height; and the part of it whose caps are taken from it, in photo
+    coordinates.
+    """
 
     x: int
     y: int
@@ -41,6 +45,6 @@ def _spans(extent: int) -> list[tuple[int, int, float, float]]:
         return [(0, extent, float("-inf"), float("inf"))]
     count = -(-(extent - OVERLAP) // (SIDE - OVERLAP))
     firsts = [round(nth * (extent - SIDE) / (count - 1)) for nth in range(count)]
-    seams = [(a + SIDE + b) / 2 for a, b in zip(firsts, firsts[1:], strict=False)]
+    seams = [(a + SIDE + b) / 2 for a, b in pairwise(firsts)]
     edges = [float("-inf"), *seams, float("inf")]
     return [(first, SIDE, edges[nth], edges[nth + 1]) for nth, first in enumerate(firsts)]

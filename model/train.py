@@ -1,8 +1,9 @@
-"""Training (sections 3 and 6.1): batches in, weights out, and every step of it kept so that it can go on after a kill.
+"""Training (sections 3 and 6.1): batches in, weights out, and every step of it kept so that it can go on
+after a kill.
 
-In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP, ``weights.safetensors``
-at the end (the best, or the last where nothing was validated), ``log.jsonl``, ``curves.png``, and ``run.json`` with
-the recipe and what the labels came from.
+In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP,
+``weights.safetensors`` at the end (the best, or the last where nothing was validated), ``log.jsonl``,
+``curves.png``, and ``run.json`` with the recipe and what the labels came from.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Any
 import msgspec
 import torch
 from msgspec import Struct
-from torch import Tensor, nn
+from torch import nn
 from torch.nn.parallel import DistributedDataParallel
 from torch.optim.swa_utils import AveragedModel
 from torch.utils.data import DataLoader
@@ -29,6 +30,7 @@ from model.data import Batches, Example, SampleConfig
 from model.errors import FairyringError
 from model.network.backbone import load_backbone
 from model.network.lite0 import imagenet_weights
+from model.network.losses import DICE_WEIGHT
 from model.network.objective import Batch, Losses, losses_of
 from model.network.pr_solov2 import PRSOLOv2
 from model.network.weights import save_weights
@@ -105,6 +107,18 @@ class _Run:
         self.best = msgspec.json.decode(state["best"])
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Plan:
+    """What stays the same through all iterations."""
+
+    recipe: Recipe
+    checks: list[Example]
+    out: Path
+    card: dict[str, Any]
+    place: Place
+    report: Report
+
+
 class _Step(nn.Module):
     """Forward pass and losses as one module, which several processes can share the gradients of."""
 
@@ -129,33 +143,38 @@ def train(
     notes: dict[str, Any] | None = None,
     report: Report = lambda _: None,
 ) -> TrainResult:
-    """Trains on crops of ``examples`` and keeps what does best on ``validation`` (whole photos; may be empty).
+    """Trains on crops of ``examples`` and keeps what does best on ``validation`` (whole photos; may be
+    empty).
 
-    ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights if
-    they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights' card.
-    The same examples, recipe and seed give the same weights on one machine, however often the run was resumed.
+    ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights
+    if they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights'
+    card. The same examples, recipe and seed give the same weights on one machine, however often the run was
+    resumed.
 
     Raises TrainError, DataError, CheckpointError, WeightsError.
     """
     with together(device) as place:
         torch.manual_seed(recipe.seed)
+        # Gradients that fade out would otherwise be counted with at a hundredth of the speed.
+        torch.set_flush_denormal(True)
         run = _start(base or _new_network(recipe), recipe, place.device)
         card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
-        _prepare(out, run, card, resume=resume, place=place)
+        checks = list(validation)[: recipe.validate_images]
+        plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, place=place, report=report)
+        _prepare(run, plan, resume=resume)
         step = _Step(run.network)
         trained = DistributedDataParallel(step) if place.world > 1 else step
-        checks = list(validation)[: recipe.validate_images]
         try:
             for batches in _batches(examples, recipe, run.iteration, workers=workers, place=place):
-                losses = _iterate(run, trained, batches, recipe, place)
-                report(_progress(run, recipe, losses, "training"))
-                _afterwards(run, recipe, checks, out, card, place, report, losses)
+                losses = _iterate(run, trained, batches, plan)
+                report(_progress(run, plan, losses, "training"))
+                _afterwards(run, plan, losses)
         except BaseException:
             if place.leads and run.iteration:
                 save_checkpoint(out, run.state())
             raise
         if place.leads:
-            _finish(run, out, card)
+            _finish(run, plan)
         place.wait()
         return TrainResult(weights=out / FINAL, figures=run.best)
 
@@ -178,8 +197,9 @@ def _start(network: PRSOLOv2, recipe: Recipe, device: torch.device) -> _Run:
     )
 
 
-def _prepare(out: Path, run: _Run, card: dict[str, Any], *, resume: bool, place: Place) -> None:
+def _prepare(run: _Run, plan: _Plan, *, resume: bool) -> None:
     """The output folder: empty for a new run, with its checkpoint for one that goes on."""
+    out, place = plan.out, plan.place
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -191,7 +211,7 @@ def _prepare(out: Path, run: _Run, card: dict[str, Any], *, resume: bool, place:
     place.wait()
     if place.leads:
         train_log.cut_after(out, run.iteration)
-        (out / RUN).write_bytes(msgspec.json.format(msgspec.json.encode(card), indent=2))
+        (out / RUN).write_bytes(msgspec.json.format(msgspec.json.encode(plan.card), indent=2))
 
 
 def _batches(
@@ -224,10 +244,9 @@ def _batches(
             gathered = []
 
 
-def _iterate(
-    run: _Run, step: nn.Module, batches: list[Batch], recipe: Recipe, place: Place
-) -> dict[str, float]:
+def _iterate(run: _Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:
     """One step of the optimiser; returns what the log says of it."""
+    recipe, place = plan.recipe, plan.place
     began = time.monotonic()
     # Everything drawn in this iteration depends on its number alone, so that a resumed run draws the same.
     torch.manual_seed((recipe.seed * SEEDS + run.iteration) * place.world + place.rank)
@@ -263,62 +282,50 @@ def _iterate(
     }
 
 
-def _afterwards(
-    run: _Run,
-    recipe: Recipe,
-    checks: Sequence[Example],
-    out: Path,
-    card: dict[str, Any],
-    place: Place,
-    report: Report,
-    losses: dict[str, float],
-) -> None:
+def _afterwards(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
     """Logs an iteration; validates and saves where it is time to."""
+    recipe = plan.recipe
     last = run.iteration == recipe.iterations
-    if place.leads:
-        train_log.append(out, [{"iteration": run.iteration, **losses}])
-        if checks and (last or run.iteration % recipe.validate_every == 0):
-            _check(run, checks, out, card, place, lambda what: report(_progress(run, recipe, losses, what)))
+    if plan.place.leads:
+        train_log.append(plan.out, [{"iteration": run.iteration, **losses}])
+        if plan.checks and (last or run.iteration % recipe.validate_every == 0):
+            _check(run, plan, losses)
         if last or run.iteration % recipe.save_every == 0:
-            save_checkpoint(out, run.state())
-            train_log.draw_curves(out)
-    place.wait()
+            save_checkpoint(plan.out, run.state())
+            train_log.draw_curves(plan.out)
+    plan.place.wait()
 
 
-def _check(
-    run: _Run,
-    checks: Sequence[Example],
-    out: Path,
-    card: dict[str, Any],
-    place: Place,
-    say: Callable[[str], None],
-) -> None:
+def _check(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
     """Validates, and keeps the weights where they are the best so far."""
-    figures = validate(run.kept, checks, device=place.device, progress=lambda _, __, what: say(what))
+
+    def say(_done: int, _total: int, what: str) -> None:
+        plan.report(_progress(run, plan, losses, what))
+
+    figures = validate(run.kept, plan.checks, device=plan.place.device, progress=say)
     found = {name: value for name, value in figures.items() if isinstance(value, float)}
-    train_log.append(out, [{"iteration": run.iteration, **found}])
+    train_log.append(plan.out, [{"iteration": run.iteration, **found}])
     if not run.best or found["AP"] > run.best["AP"]:
         run.best = {"iteration": run.iteration, **found}
-        _save(run, out / BEST, card)
+        _save(run, plan, plan.out / BEST)
 
 
-def _finish(run: _Run, out: Path, card: dict[str, Any]) -> None:
-    if (out / BEST).exists():
-        shutil.copyfile(out / BEST, out / FINAL)
+def _finish(run: _Run, plan: _Plan) -> None:
+    if (plan.out / BEST).exists():
+        shutil.copyfile(plan.out / BEST, plan.out / FINAL)
     else:
-        _save(run, out / FINAL, card)
+        _save(run, plan, plan.out / FINAL)
 
 
-def _save(run: _Run, path: Path, card: dict[str, Any]) -> None:
-    state: dict[str, Tensor] = run.kept.state_dict()
+def _save(run: _Run, plan: _Plan, path: Path) -> None:
     figures = {"iteration": run.iteration, "validation": run.best}
-    save_weights(path, state, run.network.config, card={**card, **figures})
+    save_weights(path, run.kept.state_dict(), run.network.config, card={**plan.card, **figures})
 
 
-def _progress(run: _Run, recipe: Recipe, losses: dict[str, float], what: str) -> Progress:
+def _progress(run: _Run, plan: _Plan, losses: dict[str, float], what: str) -> Progress:
     return Progress(
         iteration=run.iteration,
-        iterations=recipe.iterations,
-        loss=losses["category"] + 3 * losses["mask"] + losses["points"],
+        iterations=plan.recipe.iterations,
+        loss=losses["category"] + DICE_WEIGHT * losses["mask"] + losses["points"],
         what=what,
     )

@@ -1,4 +1,6 @@
-"""How good a network is on labelled photos: its predictions as a COCO document, against the labels as another."""
+"""How good a network is on labelled photos: its predictions as a COCO document, against the labels as
+another.
+"""
 
 from __future__ import annotations
 

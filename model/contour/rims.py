@@ -41,7 +41,7 @@ class Rims:
 def rims_of(caps: Sequence[Silhouette]) -> Rims:
     """The rims of n ≥ 1 silhouettes, each with something to see. Parts follow each other along the rim."""
     contours = [_whole_contour(cap) for cap in caps]
-    pixels = np.array([len(contour) for contour in contours])
+    pixels = np.array([len(contour) - 1 for contour in contours])
     points = _even_means(np.concatenate(contours), pixels)
     along = points.take(_NEXT, axis=1) - points.take(_LAST, axis=1)
     length = np.hypot(along[..., 0], along[..., 1])
@@ -53,7 +53,11 @@ def rims_of(caps: Sequence[Silhouette]) -> Rims:
 
 
 def _whole_contour(cap: Silhouette) -> Points:
-    return np.concatenate(contours_of(cap, least=LEAST_PART))
+    """Of all parts, from the farthest point round to it again: turned masks shall give turned points."""
+    contour = np.concatenate(contours_of(cap, least=LEAST_PART))
+    away = contour - contour.sum(axis=0) / len(contour)
+    start = int(np.einsum("ij,ij->i", away, away).argmax())
+    return np.concatenate([contour[start:], contour[: start + 1]])
 
 
 def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -64,10 +68,13 @@ def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _even_means(contours: Points, pixels: NDArray[np.int_]) -> NDArray[np.float64]:
-    """(n, K, 2): the means of K even stretches of each of n contours that follow one another in one array."""
+    """(n, K, 2): the means of K even stretches of each of n contours that follow one another in one array.
+
+    Each ends where it starts, half of that point for the first stretch and half for the last.
+    """
     total = np.concatenate([np.zeros((1, 2)), np.cumsum(contours, axis=0)])
-    first = np.concatenate([[0], np.cumsum(pixels)[:-1]])
+    first = np.concatenate([[0], np.cumsum(pixels + 1)[:-1]]) + 0.5
     at = first[:, None] + pixels[:, None] * np.arange(BINS + 1) / BINS
-    whole = np.minimum(at.astype(np.int64), len(contours) - 1)
+    whole = at.astype(np.int64)
     until = total[whole] + (at - whole)[..., None] * contours[whole]
     return np.diff(until, axis=1) * (BINS / pixels[:, None, None])

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from torch import Tensor, nn
 
 from model.network.blocks import conv_norm_relu, start_small
 
 PRIOR = 0.01
-"""Share of cells that hold a cap before anything is learnt, so that the many empty ones do not drown the loss."""
+"""Share of cells that hold a cap before anything is learnt, so that the many empty ones do not drown the
+loss.
+"""
 
 
 class CategoryHead(nn.Module):
@@ -18,7 +21,7 @@ class CategoryHead(nn.Module):
     def __init__(self, *, inputs: int, channels: int, convs: int) -> None:
         super().__init__()
         widths = [inputs, *([channels] * convs)]
-        self.tower = nn.Sequential(*(conv_norm_relu(a, b) for a, b in zip(widths, widths[1:], strict=False)))
+        self.tower = nn.Sequential(*(conv_norm_relu(a, b) for a, b in pairwise(widths)))
         self.logit = nn.Conv2d(channels, 1, 3, padding=1)
         start_small(self)
         nn.init.constant_(self.logit.bias, -math.log((1 - PRIOR) / PRIOR))  # pyright: ignore

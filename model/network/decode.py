@@ -59,7 +59,7 @@ def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: Decode
 def _candidates(
     outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig
 ) -> tuple[Tensor, Tensor, Tensor]:
-    """Scores (n,), kernels (n, E) and least areas (n,; cells of the mask) of the cells that may hold a cap."""
+    """Scores (n,), kernels (n, E) and least areas (n,; mask cells) of the grid cells that may hold a cap."""
     scores, kernels, least = [], [], []
     for level, logits in enumerate(outputs.categories):
         peaks = points_nms(logits[image : image + 1].sigmoid(), window=settings.window)[0]

@@ -10,7 +10,7 @@ from torch.nn.utils.fusion import fuse_conv_bn_weights
 
 
 def fold_batch_norms(module: nn.Module) -> None:
-    """Folds, in place, every batch norm that is registered right after a convolution. For evaluation alone."""
+    """Folds, in place, every batch norm registered right after a convolution. For evaluation alone."""
     before: nn.Module | None = None
     for name, child in list(module.named_children()):
         if isinstance(child, nn.BatchNorm2d) and isinstance(before, nn.Conv2d):

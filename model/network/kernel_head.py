@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from torch import Tensor, nn
 
 from model.network.blocks import conv_norm_relu, start_small
@@ -13,7 +15,7 @@ class KernelHead(nn.Module):
     def __init__(self, *, inputs: int, channels: int, convs: int, kernel_channels: int) -> None:
         super().__init__()
         widths = [inputs + 2, *([channels] * convs)]
-        self.tower = nn.Sequential(*(conv_norm_relu(a, b) for a, b in zip(widths, widths[1:], strict=False)))
+        self.tower = nn.Sequential(*(conv_norm_relu(a, b) for a, b in pairwise(widths)))
         self.weights = nn.Conv2d(channels, kernel_channels, 3, padding=1)
         start_small(self)
 

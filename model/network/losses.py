@@ -1,4 +1,4 @@
-"""Eq. 1–3 of the paper: focal loss for the categories, dice loss for the masks; and the loss of the points."""
+"""Eq. 1–3 of the paper: focal loss for categories, dice loss for masks; and the loss of the points."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def focal_loss(logits: Tensor, positive: Tensor) -> Tensor:
 
 
 def dice_loss(logits: Tensor, targets: Tensor) -> Tensor:
-    """Eq. 3 of each mask: 1 - 2 Σpq / (Σp² + Σq²). (n, h, w) logits and targets in [0, 1] → (n,), in float32."""
+    """Eq. 3 of each mask: 1 - 2 Σpq / (Σp² + Σq²). Logits and targets (n, h, w) → (n,), float32."""
     p = logits.flatten(1).float().sigmoid()
     q = targets.flatten(1).float()
     overlap = (p * q).sum(1)
@@ -33,7 +33,7 @@ def dice_loss(logits: Tensor, targets: Tensor) -> Tensor:
 
 
 def point_loss(logits: Tensor, targets: Tensor) -> Tensor:
-    """Mean binary cross-entropy against soft labels, (n,) and (n,) → a scalar; 0 where there are no points."""
+    """Mean binary cross-entropy against soft labels, (n,) and (n,) → a scalar; 0 without points."""
     if not len(logits):
         return logits.sum()
     return F.binary_cross_entropy_with_logits(logits.float(), targets.float())

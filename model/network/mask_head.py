@@ -16,7 +16,8 @@ COARSEST = 3
 
 
 class MaskHead(nn.Module):
-    """P2…P5, each convolved and doubled in size until it has that of P2, summed, and mixed by a 1×1 convolution.
+    """P2…P5, each convolved and doubled in size until it has that of P2, summed, and mixed by a 1×1
+    convolution.
 
     ``finest``: the level whose size the map has, 0 for P2; finer levels are left out.
     """

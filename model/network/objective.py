@@ -8,8 +8,10 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
+from model.network.boxes import boxes_of, with_margin
 from model.network.dynamic_conv import mask_logits
 from model.network.losses import DICE_WEIGHT, dice_loss, focal_loss, point_loss
+from model.network.point_rend import Queries
 from model.network.point_sampling import sample_maps, training_points
 from model.network.pr_solov2 import Outputs, PRSOLOv2
 from model.network.targets import IGNORED
@@ -26,8 +28,6 @@ class Caps:
     """(n, H, W) uint8 at photo pixels: 1 on the visible cap."""
     targets: Tensor
     """(n, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
-    boxes: Tensor
-    """(n, 4) float: x, y, width, height of the visible mask, photo pixels."""
     cells: list[Tensor]
     """Of each level (rows, columns) int64: see ``model.network.targets``."""
 
@@ -51,7 +51,6 @@ class Batch:
                 Caps(
                     masks=caps.masks.to(device),
                     targets=caps.targets.to(device),
-                    boxes=caps.boxes.to(device),
                     cells=[cells.to(device) for cells in caps.cells],
                 )
                 for caps in self.caps
@@ -108,7 +107,7 @@ def _positives(outputs: Outputs, batch: Batch) -> _Positives:
             kernels.append(outputs.kernels[level][image].permute(1, 2, 0)[held])
             places.append(cells[held] + first)
             images.append(torch.full_like(places[-1], image))
-        first += len(caps.boxes)
+        first += len(caps.masks)
     return _Positives(torch.cat(kernels), torch.cat(images), torch.cat(places))
 
 
@@ -132,23 +131,26 @@ def _instance_points(
     assert outputs.point_maps is not None
     device = logits.device
     shuffled = torch.randperm(len(logits), device=device)
-    of_cap = torch.full((sum(len(caps.boxes) for caps in batch.caps),), -1, device=device)
+    of_cap = torch.full((sum(len(caps.masks) for caps in batch.caps),), -1, device=device)
     of_cap[positives.caps[shuffled]] = shuffled
     caps = (of_cap >= 0).nonzero().squeeze(1)
     chosen = of_cap[caps]
-    boxes = torch.cat([image.boxes for image in batch.caps])[caps]
     coarse, stride = logits[chosen], network.config.mask_stride
+    targets = torch.cat([image.targets for image in batch.caps])[caps]
     with torch.no_grad():
-        points = training_points(coarse, boxes, count=POINTS, stride=stride).reshape(-1, 2)
+        # As prediction sees it: in cells of the mask, and with the window's margin to draw in.
+        boxes = boxes_of(targets >= targets.amax((1, 2), keepdim=True).clamp(max=0.5)) * stride
+        windows = with_margin(boxes, least=stride)
+        points = training_points(coarse, windows, count=POINTS, stride=stride).reshape(-1, 2)
     each = torch.arange(len(caps), device=device).repeat_interleave(POINTS)
-    said = network.point_head(
-        outputs.point_maps,
-        positives.kernels[chosen][each],
-        positives.images[chosen][each],
-        boxes[each],
-        sample_maps(coarse[:, None], each, points, stride=stride)[:, 0],
-        points,
+    queries = Queries(
+        points=points,
+        owners=positives.images[chosen][each],
+        kernels=positives.kernels[chosen][each],
+        boxes=boxes[each],
+        coarse=sample_maps(coarse[:, None], each, points, stride=stride)[:, 0],
     )
+    said = network.point_head(outputs.point_maps, queries)
     masks = torch.cat([image.masks for image in batch.caps])
     true = sample_maps(masks[:, None], caps[each], points, stride=1)[:, 0]
     return point_loss(said, true)

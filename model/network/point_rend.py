@@ -1,8 +1,8 @@
 """PointRend, reading A: a small network decides, point by point, where the edge of one cap runs.
 
-Kirillov et al., PointRend (CVPR 2020). A point sees P2 and P4 (the paper's 2nd and 4th layer), the coarse logit, and
-which cap is asked about: the mask feature there times the cap's kernel, and where in the cap's box the point lies.
-With detail channels it sees the photo itself, too.
+Kirillov et al., PointRend (CVPR 2020). A point sees P2 and P4 (the paper's 2nd and 4th layer), the coarse
+logit, and which cap is asked about: the mask feature there times the cap's kernel, and where in the cap's
+box the point lies. With detail channels it sees the photo itself, too.
 """
 
 from __future__ import annotations
@@ -33,6 +33,21 @@ class PointMaps(NamedTuple):
     """(B, detail channels, H / 2, W / 2) of an input of H × W photo pixels."""
     feature: Tensor
     """(B, E, h, w): the mask feature."""
+
+
+class Queries(NamedTuple):
+    """P points to decide on."""
+
+    points: Tensor
+    """(P, 2): x, y, photo pixels."""
+    owners: Tensor
+    """(P,): the image of each."""
+    kernels: Tensor
+    """(P, E): of the cap that is asked about."""
+    boxes: Tensor
+    """(P, 4): x, y, width, height of that cap, photo pixels."""
+    coarse: Tensor
+    """(P,): its logit there so far."""
 
 
 class Detail(nn.Module):
@@ -77,14 +92,9 @@ class PointHead(nn.Module):
             feature=feature,
         )
 
-    def forward(
-        self, maps: PointMaps, kernels: Tensor, owners: Tensor, boxes: Tensor, coarse: Tensor, points: Tensor
-    ) -> Tensor:
-        """Logits (P,) of points (P, 2), photo pixels.
-
-        Of each point: ``kernels`` (P, E) and ``boxes`` (P, 4; x, y, width, height) of its cap, ``owners`` (P,) its
-        image, ``coarse`` (P,) the logit there so far.
-        """
+    def forward(self, maps: PointMaps, queries: Queries) -> Tensor:
+        """Logits (P,): above 0 the point is on the cap."""
+        points, owners, kernels, boxes, coarse = queries
         asked = sample_maps(maps.feature, owners, points, stride=self.mask_stride) * kernels
         place = (points - boxes[:, :2]) / boxes[:, 2:].clamp(min=1.0) * 2 - 1
         inputs = [self.cue(asked), place, coarse[:, None]]

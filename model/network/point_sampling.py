@@ -12,8 +12,8 @@ UNCERTAIN_SHARE = 0.75
 def sample_maps(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) -> Tensor:
     """Bilinear: (M, C, h, w), (P,) map of each point, (P, 2) x, y in photo pixels → (P, C).
 
-    A map's pixel (i, j) has its middle at ((j + 0.5) · stride, (i + 0.5) · stride); beyond the outermost middles
-    their values hold on.
+    A map's pixel (i, j) has its middle at ((j + 0.5) · stride, (i + 0.5) · stride); beyond the outermost
+    middles their values hold on.
     """
     count, channels, height, width = maps.shape
     rows = maps.permute(0, 2, 3, 1).reshape(count * height * width, channels)
@@ -31,10 +31,11 @@ def sample_maps(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) 
 
 
 def training_points(coarse: Tensor, boxes: Tensor, *, count: int, stride: float) -> Tensor:
-    """Points to train on, in each cap's box: (K, h, w) coarse logits, (K, 4) x, y, width, height → (K, count, 2).
+    """Points to train on, in each cap's box: (K, h, w) coarse logits, (K, 4) x, y, width, height → (K,
+    count, 2).
 
-    PointRend (Kirillov et al., CVPR 2020): three times as many are drawn evenly, 75 % of the points are those of
-    them with the logit nearest 0, the rest are drawn evenly.
+    PointRend (Kirillov et al., CVPR 2020): three times as many are drawn evenly, 75 % of the points are
+    those of them with the logit nearest 0, the rest are drawn evenly.
     """
     caps = len(boxes)
     drawn = torch.rand(caps, OVERSAMPLING * count, 2, device=coarse.device)

@@ -11,11 +11,10 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F  # noqa: N812
 
+from model.network.boxes import boxes_of, with_margin
 from model.network.decode import Instances
-from model.network.point_rend import PointHead, PointMaps
+from model.network.point_rend import PointHead, PointMaps, Queries
 
-MARGIN = 0.1
-"""Of the window around a mask's box, on every side."""
 POINTS_PER_SIDE = 8
 """Points seen anew in each doubling, for each pixel of the window's side: 784 at 98 pixels, 2048 at 256."""
 WINDOWS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
@@ -38,8 +37,8 @@ def draw(
     """Every instance at photo pixels. Without a point head its logits are enlarged bilinearly."""
     drawn: list[Drawn | None] = [None] * len(instances.scores)
     boxes = boxes_of(instances.logits > 0)
-    margin = (boxes[:, 2:] * MARGIN).ceil().clamp(min=1)
-    corners, sides = boxes[:, :2] - margin, (boxes[:, 2:] + 2 * margin).amax(1)
+    windows = with_margin(boxes, least=1)
+    corners, sides = windows[:, :2], windows[:, 2:].amax(1)
     for low, high in zip((0, *WINDOWS), WINDOWS, strict=False):
         of_side = ((sides > low) & (sides <= high)).nonzero().squeeze(1)
         if not len(of_side):
@@ -54,18 +53,20 @@ def draw(
             )
             if head is not None and maps is not None:
                 kernels, frames = instances.kernels[of_side], boxes[of_side] * mask_stride
-                _see_anew(head, maps, logits, kernels, frames, at, image=image, stride=stride)
+                points, chosen = _unclear(logits, at, stride=stride)
+                each = torch.arange(len(logits), device=logits.device).repeat_interleave(chosen.shape[1])
+                flat = logits.view(len(logits), -1)
+                queries = Queries(
+                    points=points,
+                    owners=torch.full_like(each, image),
+                    kernels=kernels[each],
+                    boxes=frames[each],
+                    coarse=flat.gather(1, chosen).flatten(),
+                )
+                flat.scatter_(1, chosen, head(maps, queries).reshape(chosen.shape))
         for index, (x, y), window in zip(of_side.tolist(), at.long().tolist(), logits, strict=True):
             drawn[index] = Drawn(x, y, window)
     return [one for one in drawn if one is not None]
-
-
-def boxes_of(masks: Tensor) -> Tensor:
-    """(K, h, w) bool, none empty → (K, 4) float x, y, width, height of each mask."""
-    columns, rows = masks.any(1).float(), masks.any(2).float()
-    left, top = columns.argmax(1), rows.argmax(1)
-    right, bottom = masks.shape[2] - columns.flip(1).argmax(1), masks.shape[1] - rows.flip(1).argmax(1)
-    return torch.stack([left, top, right - left, bottom - top], dim=1).float()
 
 
 def _windows(logits: Tensor, corners: Tensor, *, side: int) -> Tensor:
@@ -77,24 +78,13 @@ def _windows(logits: Tensor, corners: Tensor, *, side: int) -> Tensor:
     return logits[each, y[:, :, None], x[:, None, :]]
 
 
-def _see_anew(
-    head: PointHead,
-    maps: PointMaps,
-    logits: Tensor,
-    kernels: Tensor,
-    boxes: Tensor,
-    at: Tensor,
-    *,
-    image: int,
-    stride: int,
-) -> None:
-    """Puts the head's logits into ``logits`` (n, s, s) where these are nearest 0."""
+def _unclear(logits: Tensor, at: Tensor, *, stride: int) -> tuple[Tensor, Tensor]:
+    """The points (n · k, 2) where windows (n, s, s) are nearest 0, and their places (n, k) in them.
+
+    ``at`` (n, 2): the windows' first corners, photo pixels.
+    """
     count, side = logits.shape[:2]
     flat = logits.view(count, -1)
     chosen = flat.abs().topk(min(POINTS_PER_SIDE * side, flat.shape[1]), dim=1, largest=False).indices
     where = torch.stack([chosen % side, chosen // side], dim=2)
-    points = (at[:, None] + (where.float() + 0.5) * stride).reshape(-1, 2)
-    each = torch.arange(count, device=logits.device).repeat_interleave(chosen.shape[1])
-    owners = torch.full_like(each, image)
-    said = head(maps, kernels[each], owners, boxes[each], flat.gather(1, chosen).flatten(), points)
-    flat.scatter_(1, chosen, said.reshape(chosen.shape))
+    return (at[:, None] + (where.float() + 0.5) * stride).reshape(-1, 2), chosen

@@ -1,7 +1,8 @@
-"""PointRend, reading B: as printed, before the mask branch. It sharpens the mask feature from P4's size to P2's.
+"""PointRend, reading B: as printed, before the mask branch. It sharpens the mask feature from P4's size to
+P2's.
 
-What is uncertain is whether a pixel is cap or soil. At the points where that is least clear the feature, doubled
-in size, is replaced by what a perceptron makes of it, P2 and P4.
+What is uncertain is whether a pixel is cap or soil. At the points where that is least clear the feature,
+doubled in size, is replaced by what a perceptron makes of it, P2 and P4.
 """
 
 from __future__ import annotations
@@ -64,7 +65,7 @@ class SemanticPointRend(nn.Module):
         return SharpFeature(feature, torch.cat(points, 1), torch.cat(logits, 1))
 
     def _replace(self, feature: Tensor, pyramid: list[Tensor], chosen: Tensor, points: Tensor) -> Tensor:
-        """The feature with the pixels ``chosen`` (B, P) seen again; ``points`` (B, P, 2) are their middles."""
+        """The feature with its pixels ``chosen`` (B, P) seen again; ``points`` (B, P, 2): their middles."""
         batch, channels = feature.shape[:2]
         index = chosen[:, None].expand(-1, channels, -1)
         old = feature.flatten(2).gather(2, index).transpose(1, 2)

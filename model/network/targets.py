@@ -33,11 +33,11 @@ def assign_cells(
 ) -> list[Cells]:
     """The five levels' cells for the caps of one input of ``height`` × ``width`` photo pixels.
 
-    ``boxes`` (n, 4): x, y, width, height; ``centres`` (n, 2): mass centres of the visible masks. A cap goes to the
-    levels whose scale range holds √(box area) in network-input pixels; there to the cells that its box, scaled by
-    0.2 about the centre, touches, at most one away from the centre's own. Of two caps in one cell the one whose
-    centre is nearer to the cell's middle has it. ``ignored`` (height, width): cells whose middle lies there
-    and that hold no cap are IGNORED.
+    ``boxes`` (n, 4): x, y, width, height; ``centres`` (n, 2): mass centres of the visible masks. A cap goes
+    to the levels whose scale range holds √(box area) in network-input pixels; there to the cells that its
+    box, scaled by 0.2 about the centre, touches, at most one away from the centre's own. Of two caps in one
+    cell the one whose centre is nearer to the cell's middle has it. ``ignored`` (height, width): cells
+    whose middle lies there and that hold no cap are IGNORED.
     """
     sizes = np.sqrt(boxes[:, 2] * boxes[:, 3]) / config.reduction
     levels = []

@@ -1,7 +1,7 @@
 """Weights in files: safetensors of half precision, with what must be known to build the network again.
 
-A file is checked before it is believed: its header, the network it names, the shape of every tensor, and the digest
-over all of them. Nothing in it is ever run.
+A file is checked before it is believed: its header, the network it names, the shape of every tensor, and
+the digest over all of them. Nothing in it is ever run.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from model.network.config import NetworkConfig
 from model.network.pr_solov2 import PRSOLOv2
 
 FORMAT = "fairyring-pr-solov2-1"
-SHIPPED = Path(__file__).parent.parent / "weights" / "lite0.safetensors"
 
 
 class WeightsError(FairyringError):

@@ -1,0 +1,7 @@
+"""The weights that come with Fairyring."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+SHIPPED = Path(__file__).parent / "weights" / "lite0.safetensors"
