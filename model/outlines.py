@@ -39,7 +39,8 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
         simple = [_simplified(ring) for ring in (rings[0], *holes)]
         if all(len(ring) >= 3 for ring in simple):
             # The padding moved every index by 1, the middle of a pixel lies half a pixel in.
-            points = join_holes(simple[0], simple[1:]) + np.subtract(corner, 0.5)
+            points = join_holes(simple[0], simple[1:]) - 0.5
+            points = points.clip(0, logits.shape[::-1]) + corner
             outline.append(part_of_points(points.round(2)))
     return outline
 
