@@ -1,4 +1,4 @@
-"""Networks small enough to build and run in a blink, shared by the tests of the network and of its training."""
+"""Networks small enough to build and run in a blink, shared by its tests and those of its training."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from model.network.pr_solov2 import PRSOLOv2
 TINY = NetworkConfig(
     reduction=1,
     fpn_channels=32,
-    head_channels=32,
+    head_channels=64,
     head_convs=1,
     kernel_channels=32,
     point_channels=32,
