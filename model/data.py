@@ -112,7 +112,7 @@ def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
     height, width = crop.photo.shape[:2]
     cells = assign_cells(crop.boxes, crop.centres, network, height=height, width=width, ignored=crop.ignored)
     masks = torch.from_numpy(crop.masks)
-    targets = torch.nn.functional.avg_pool2d(masks.float(), network.mask_stride)
+    targets = torch.nn.functional.avg_pool2d(masks[:, None].float(), network.mask_stride)[:, 0]
     return Caps(
         masks=masks,
         targets=targets if soft else (targets >= 0.5).float(),
