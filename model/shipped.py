@@ -5,3 +5,5 @@ from __future__ import annotations
 from pathlib import Path
 
 SHIPPED = Path(__file__).parent / "weights" / "lite0.safetensors"
+RECIPE = SHIPPED.with_suffix(".toml")
+"""How they were trained."""

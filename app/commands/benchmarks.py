@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
+from app.commands import bench_network
 from app.commands.contour import MethodName
+from app.commands.rows import AsJson, print_rows
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -16,7 +17,8 @@ commands = typer.Typer(
     help="Measure, as ratios to a plain reference in the same run.",
 )
 
-AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
+commands.add_typer(bench_network.commands, name="network")
+
 Quick = Annotated[bool, typer.Option(help="A small run, to see that it works.")]
 
 
@@ -28,7 +30,7 @@ def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
     """
     from app.bench import store as bench
 
-    _print("store", bench.run(quick=quick), as_json=as_json)
+    print_rows("store", bench.run(quick=quick), as_json=as_json)
 
 
 @commands.command()
@@ -39,7 +41,7 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
     """
     from app.bench import editor as bench
 
-    _print("editor", bench.run(quick=quick), as_json=as_json)
+    print_rows("editor", bench.run(quick=quick), as_json=as_json)
 
 
 @commands.command()
@@ -63,7 +65,7 @@ def scene(
 
     if sheet is not None:
         draw_sheet(sheet, real=real)
-    _print("scene", bench.run(quick=quick, real=real), as_json=as_json)
+    print_rows("scene", bench.run(quick=quick, real=real), as_json=as_json)
 
 
 @commands.command()
@@ -92,19 +94,4 @@ def contour(
         raise typer.BadParameter("--pictures are of real photos: give their folder with --real.")
     if pictures is not None and real is not None:
         draw_worst(real, pictures, methods=[each.value for each in method or [MethodName.map]])
-    _print("contour", bench.run(quick=quick, real=real), as_json=as_json)
-
-
-def _print(title: str, rows: list[dict[str, Any]], *, as_json: bool) -> None:
-    if as_json:
-        typer.echo(json.dumps(rows))
-        return
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(title=title)
-    for column in rows[0]:
-        table.add_column(column.replace("_", " "))
-    for row in rows:
-        table.add_row(*("" if value is None else str(value) for value in row.values()))
-    Console().print(table)
+    print_rows("contour", bench.run(quick=quick, real=real), as_json=as_json)

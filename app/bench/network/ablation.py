@@ -1,0 +1,99 @@
+"""Table 1: what each part of the network brings, every variant trained alike on the same beds."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from pathlib import Path
+from typing import Any
+
+import torch
+from msgspec.structs import replace
+
+from app.bench.network.sets import LabelledPhotos, Progress, rendered_for_training
+from app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
+from model.data import Example
+from model.evaluate.masks import evaluate_masks
+from model.network.decode import DecodeConfig
+from model.network.weights import load_weights
+from model.predict import Predictor
+from model.recipe import Recipe, read_recipe
+from model.shipped import RECIPE
+from model.train import FINAL, train
+from model.train import Progress as Step
+
+PAPER_GRIDS = (40, 36, 24, 16, 12)
+WINDOWS = (2, 1)
+"""Of points-NMS; 1 is none."""
+PAPER_SOLOV2 = {"AP": 0.9028}
+
+
+def variants(iterations: int) -> dict[str, Recipe]:
+    """The shipped weights' recipe in each of the ways that are compared, for so many iterations."""
+    recipe = read_recipe(RECIPE)
+    recipe = replace(
+        recipe, iterations=iterations, warm_up=min(recipe.warm_up, iterations // 6), validate_images=0
+    )
+    network = recipe.network
+    off, semantic = replace(network, point_rend="off"), replace(network, point_rend="semantic")
+    return {
+        "SOLOv2, binary targets": replace(recipe, network=off, targets="binary"),
+        "SOLOv2, soft targets": replace(recipe, network=off),
+        "PR-SOLOv2 (A), binary targets": replace(recipe, targets="binary"),
+        "PR-SOLOv2 (A), soft targets": recipe,
+        "PR-SOLOv2 (A), soft, no detail": replace(recipe, network=replace(network, detail_channels=0)),
+        "PR-SOLOv2 (A), soft, paper's grids": replace(recipe, network=replace(network, grids=PAPER_GRIDS)),
+        "PR-SOLOv2 (B), soft targets": replace(recipe, network=semantic),
+    }
+
+
+def ablation_rows(
+    folder: Path,
+    test: LabelledPhotos,
+    *,
+    iterations: int,
+    beds: int,
+    device: torch.device,
+    progress: Progress,
+) -> list[dict[str, Any]]:
+    """Trains each variant in ``folder``, going on with what is there, and measures it on ``test``.
+
+    Every one sees the same ``beds`` of each preset, the same number of iterations and the same seed.
+    """
+    examples = [
+        example for photos in rendered_for_training(folder, beds, progress) for example in _examples(photos)
+    ]
+    rows: list[dict[str, Any]] = [
+        {"network": f"paper: {name}"} | {key: figures.get(key) for key in MASK_FIGURES} | {"window": None}
+        for name, figures in (("SOLOv2", PAPER_SOLOV2), ("PR-SOLOv2", PAPER_MASKS))
+    ]
+    for name, recipe in variants(iterations).items():
+        out = folder / f"{iterations} {name}".replace(" ", "_").replace(",", "")
+        if not (out / FINAL).exists():
+            _train(name, recipe, examples, out, device=device, progress=progress)
+        predictor = Predictor(load_weights(out / FINAL).network, device=device)
+        for window in WINDOWS:
+            settings = DecodeConfig(window=window)
+            predicted = predicted_document(predictor, test, settings=settings, progress=progress)
+            figures = evaluate_masks(predicted, test.document)
+            rows.append(mask_row(name, figures) | {"window": window})
+    return rows
+
+
+def _train(
+    name: str, recipe: Recipe, examples: list[Example], out: Path, *, device: torch.device, progress: Progress
+) -> None:
+    def report(step: Step) -> None:
+        progress(step.iteration, step.iterations, f"training {name}")
+
+    resume = (out / "last.pt").exists()
+    train(examples, [], out, recipe=recipe, device=device, resume=resume, report=report)
+
+
+def _examples(photos: LabelledPhotos) -> list[Example]:
+    caps: dict[Any, list[list[list[float]]]] = defaultdict(list)
+    for cap in photos.document["annotations"]:
+        caps[cap["image_id"]].append(cap["segmentation"])
+    return [
+        Example(path=path, width=entry["width"], height=entry["height"], caps=caps[entry["id"]])
+        for entry, path in zip(photos.document["images"], photos.photos, strict=True)
+    ]

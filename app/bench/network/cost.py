@@ -1,0 +1,139 @@
+"""Table 4: time and memory from a decoded photo to stored centres, stage by stage."""
+
+from __future__ import annotations
+
+import resource
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from app.bench.network.sets import LabelledPhotos
+from model.contour.reconstruct import reconstruct
+from model.network.decode import decode
+from model.network.refine import draw
+from model.predict import Detection, Predictor
+from storage.images import find_image
+from storage.importing import import_paths
+from storage.predictions import NewPrediction, add_predictions, add_run
+from storage.project import Project, create_project
+
+WARM_UP, ROUNDS = 2, 7
+CERTAIN = 0.3
+
+
+def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, Any]]:
+    """Medians over the first photo of a set; ratios to the backbone's pass at full resolution."""
+    _, photo = next(photos.images())
+    reference = _timed(predictor, lambda: _backbone_alone(predictor, photo))
+    seen = predictor.see([photo])[0]
+    found = [cap for cap in predictor.read(seen) if cap.score >= CERTAIN]
+    stages = [
+        ("network: features, heads", lambda: predictor.see([photo])),
+        ("instances and their edges", lambda: _masks(predictor, photo)),
+        ("outlines, and whose pixel it is", lambda: predictor.read(seen)),
+        ("whole outlines and centres", lambda: _centres(found, photo)),
+    ]
+    times = dict(
+        zip((name for name, _ in stages), (_timed(predictor, work) for _, work in stages), strict=True)
+    )
+    # The stages overlap: the second runs the first again, and the third the second's part after it.
+    forward, upto_masks = times["network: features, heads"], times["instances and their edges"]
+    times["instances and their edges"] = upto_masks - forward
+    times["outlines, and whose pixel it is"] -= upto_masks - forward
+    times["storing"] = _storing(photos, found)
+    total = sum(times.values())
+    rows = [_row(name, seconds, reference, len(found)) for name, seconds in times.items()]
+    rows.append(_row("decoded photo to masks", forward + (upto_masks - forward), reference, len(found)))
+    rows.append(_row("decoded photo to stored centres", total, reference, len(found)))
+    rows.append(_row("reference: the backbone alone, full resolution", reference, reference, len(found)))
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    rows.append(
+        {"stage": f"peak memory of the process, MB: {peak:.0f}", "ms": None, "ratio": None, "caps": None}
+    )
+    return rows
+
+
+def _row(stage: str, seconds: float, reference: float, caps: int) -> dict[str, Any]:
+    return {
+        "stage": stage,
+        "ms": round(1000 * seconds, 1),
+        "ratio": round(seconds / reference, 2),
+        "caps": caps,
+    }
+
+
+def _timed(predictor: Predictor, work: Callable[[], object]) -> float:
+    """Seconds, median."""
+    times = []
+    for _ in range(WARM_UP + ROUNDS):
+        _wait(predictor)
+        began = time.perf_counter()
+        work()
+        _wait(predictor)
+        times.append(time.perf_counter() - began)
+    return statistics.median(times[WARM_UP:])
+
+
+def _wait(predictor: Predictor) -> None:
+    if predictor.device.type == "cuda":
+        torch.cuda.synchronize()
+
+
+@torch.inference_mode()
+def _backbone_alone(predictor: Predictor, photo: NDArray[np.uint8]) -> object:
+    height, width = (side // 32 * 32 for side in photo.shape[:2])
+    pixels = torch.from_numpy(photo[:height, :width].copy()).to(predictor.device).permute(2, 0, 1)[None]
+    return predictor.network.backbone(pixels.float().contiguous(memory_format=torch.channels_last))
+
+
+@torch.inference_mode()
+def _masks(predictor: Predictor, photo: NDArray[np.uint8]) -> object:
+    seen = predictor.see([photo])[0]
+    config = predictor.network.config
+    drawn = []
+    for _, outputs, place in seen.pieces:
+        instances = decode(outputs, place, config, predictor.settings.decode)
+        head, maps = predictor.network.point_head, outputs.point_maps
+        drawn += draw(head, maps, instances, image=place, mask_stride=config.mask_stride)
+    return drawn
+
+
+def _centres(found: list[Detection], photo: NDArray[np.uint8]) -> object:
+    height, width = photo.shape[:2]
+    return reconstruct([cap.outline for cap in found], width=width, height=height)
+
+
+def _storing(photos: LabelledPhotos, found: list[Detection]) -> float:
+    """Seconds of one transaction, median."""
+    with tempfile.TemporaryDirectory() as folder, create_project(Path(folder) / "project") as project:
+        import_paths(project, [photos.photos[0]])
+        with project.read() as connection:
+            image = find_image(connection, photos.photos[0].name)
+        assert image is not None
+        times = [_store(project, image.id, found) for _ in range(ROUNDS)]
+    return statistics.median(times)
+
+
+def _store(project: Project, image_id: int, found: list[Detection]) -> float:
+    new = [NewPrediction(visible=cap.outline, score=cap.score) for cap in found]
+
+    def work(connection: Any) -> None:
+        run = add_run(connection, name="bench", kind="network")
+        add_predictions(connection, run_id=run.id, image_id=image_id, predictions=new)
+
+    began = time.perf_counter()
+    project.write(work)
+    return time.perf_counter() - began
+
+
+def threads() -> int:
+    """Cores that torch and OpenCV compute on."""
+    return max(torch.get_num_threads(), cv2.getNumThreads())

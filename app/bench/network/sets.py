@@ -1,0 +1,78 @@
+"""What the network is measured on: rendered beds that no training has seen, and hand-checked photos."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.commands.files import read_json
+from model import photo
+from model.errors import FairyringError
+from model.photo import Pixels
+from model.scene.dataset import DOCUMENT, write_beds
+from model.scene.presets import preset
+
+Progress = Callable[[int, int, str], None]
+
+TEST_BEDS = {"paper": (48, 3003), "farm": (20, 3001)}
+"""Preset: how many beds, and their seed. Training and validation have other seeds."""
+TRAINING_SEEDS = {"farm": 1001, "default": 1002, "paper": 1003}
+
+
+@dataclass(frozen=True, kw_only=True)
+class LabelledPhotos:
+    """A COCO document with its photos."""
+
+    name: str
+    document: dict[str, Any]
+    photos: list[Path]
+    """Of the document's images, in their order."""
+
+    def images(self) -> Iterator[tuple[dict[str, Any], Pixels]]:
+        """Each entry of the document with its photo, (height, width, 3) RGB."""
+        for entry, path in zip(self.document["images"], self.photos, strict=True):
+            yield entry, photo.read(path)[:, :, ::-1].copy()
+
+    def only(self, key: str, value: str) -> LabelledPhotos:
+        """The images whose ``key`` (light, form) has this value."""
+        chosen = [nth for nth, entry in enumerate(self.document["images"]) if entry.get(key) == value]
+        images = [self.document["images"][nth] for nth in chosen]
+        return LabelledPhotos(
+            name=value,
+            document=self.document | {"images": images},
+            photos=[self.photos[nth] for nth in chosen],
+        )
+
+
+def rendered(name: str, folder: Path, *, count: int | None = None, progress: Progress) -> LabelledPhotos:
+    """The test beds of a preset, rendered into ``folder`` unless they are there already."""
+    all_of_them, seed = TEST_BEDS[name]
+    out = folder / f"test_{name}"
+    write_beds(out, preset(name), count=count or all_of_them, seed=seed, resume=True, progress=progress)
+    return _read(name, out / DOCUMENT)
+
+
+def rendered_for_training(folder: Path, count: int, progress: Progress) -> list[LabelledPhotos]:
+    """So many beds of each training preset, rendered into ``folder`` unless they are there already."""
+    sets = []
+    for name, seed in TRAINING_SEEDS.items():
+        out = folder / f"train_{name}"
+        write_beds(out, preset(name), count=count, seed=seed, resume=True, progress=progress)
+        sets.append(_read(name, out / DOCUMENT))
+    return sets
+
+
+def checked(folder: Path) -> LabelledPhotos:
+    """The hand-checked photos of a folder with ``checked.json`` and ``images/``."""
+    return _read("checked photos", folder / "checked.json")
+
+
+def _read(name: str, labels: Path) -> LabelledPhotos:
+    document = read_json(labels)
+    photos = [labels.parent / "images" / entry["file_name"] for entry in document["images"]]
+    missing = [path for path in photos if not path.exists()]
+    if missing:
+        raise FairyringError(f"{missing[0]} is missing, which {labels} speaks of; put it there.")
+    return LabelledPhotos(name=name, document=document, photos=photos)

@@ -1,0 +1,106 @@
+"""The figures of one network: success by light and form, and from image to centre."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.bench.network.sets import LabelledPhotos, Progress
+from model.contour.coco import contour_document
+from model.evaluate.centres import evaluate_centres
+from model.evaluate.masks import evaluate_masks
+from model.network.decode import DecodeConfig
+from model.predict import Predictor
+
+CERTAIN = 0.5
+"""Least score of the predictions whose centres are measured."""
+
+PAPER_MASKS = {"AP": 0.9304, "AP50": 0.9906, "AP75": 0.9525, "S50": 0.9813}
+PAPER_LIGHTS = {"top": 0.9800, "side": 0.9723, "dark": 0.9873}
+PAPER_CDR = 0.30
+"""Percent, mean."""
+
+MASK_FIGURES = ("AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "S50_small")
+
+
+def predicted_document(
+    predictor: Predictor,
+    photos: LabelledPhotos,
+    *,
+    settings: DecodeConfig | None = None,
+    progress: Progress = lambda *_: None,
+) -> dict[str, Any]:
+    """What the network sees in the photos, as a COCO document with scores."""
+    annotations: list[dict[str, Any]] = []
+    for done, (entry, pixels) in enumerate(photos.images()):
+        progress(done, len(photos.photos), f"predicting {entry['file_name']}")
+        for detection in predictor.read(predictor.see([pixels])[0], settings):
+            annotations.append(
+                {
+                    "id": len(annotations) + 1,
+                    "image_id": entry["id"],
+                    "category_id": 1,
+                    "segmentation": detection.outline,
+                    "score": detection.score,
+                }
+            )
+    return {"images": photos.document["images"], "annotations": annotations, "categories": []}
+
+
+def success_rows(predicted: dict[str, Any], photos: LabelledPhotos) -> list[dict[str, Any]]:
+    """Table 2: all caps of a set, then by light and by form, with the paper's figures beside."""
+    figures = evaluate_masks(predicted, photos.document)
+    rows = [_row("all", figures, PAPER_MASKS["S50"])]
+    for group, papers in (("light", PAPER_LIGHTS), ("form", {}), ("size", {})):
+        for value, scores in figures["groups"].get(group, {}).items():
+            rows.append(_row(f"{group} {value}", scores, papers.get(value)))
+    return rows
+
+
+def centre_rows(predicted: dict[str, Any], photos: LabelledPhotos) -> list[dict[str, Any]]:
+    """Table 3: how far the centres of certain predictions lie from the true ones."""
+    certain = [cap for cap in predicted["annotations"] if cap["score"] >= CERTAIN]
+    found = contour_document(predicted | {"annotations": certain})
+    rows = []
+    for without_doubt in (False, True):
+        truth = _without_doubt(photos.document) if without_doubt else photos.document
+        if without_doubt and truth == photos.document:
+            continue
+        figures = evaluate_centres(found, truth)
+        cdr, px = figures["cdr"], figures["px"]
+        rows.append(
+            {
+                "set": photos.name + (", certain caps" if without_doubt else ""),
+                "CDR_%_mean": _rounded(cdr["mean"]),
+                "median": _rounded(cdr["median"]),
+                "p95": _rounded(cdr["p95"]),
+                "px_mean": _rounded(px["mean"]),
+                "px_median": _rounded(px["median"]),
+                "bias_px": [round(side, 3) for side in figures["bias_px"] or ()],
+                "matched": figures["matched"],
+                "missed": figures["missed"],
+                "extra": figures["extra"],
+                "paper_CDR_%": PAPER_CDR,
+            }
+        )
+    return rows
+
+
+def mask_row(name: str, figures: dict[str, Any]) -> dict[str, Any]:
+    """The figures of ``evaluate masks`` in one row."""
+    return {"network": name} | {key: _rounded(figures.get(key)) for key in MASK_FIGURES}
+
+
+def _row(name: str, scores: dict[str, Any], paper: float | None) -> dict[str, Any]:
+    count = scores.get("count", scores.get("counts", {}).get("truths"))
+    figures = {key: _rounded(scores.get(key)) for key in ("S50", "S75", "S50_strict", "AP")}
+    return {"caps_of": name, "caps": count, **figures, "paper_S50": paper}
+
+
+def _without_doubt(document: dict[str, Any]) -> dict[str, Any]:
+    """Doubtful caps count neither way."""
+    caps = [cap | {"ignore": True} if cap.get("doubt") else cap for cap in document["annotations"]]
+    return document | {"annotations": caps}
+
+
+def _rounded(figure: float | None) -> float | None:
+    return None if figure is None else round(figure, 4)

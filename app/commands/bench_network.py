@@ -1,0 +1,160 @@
+"""``fairyring bench network``: the four tables of docs/results.md, each by one command."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands.network import Device, OnDevice
+from app.commands.progress import shown_on_stderr
+from app.commands.rows import AsJson, print_rows
+
+if TYPE_CHECKING:
+    from app.bench.network.sets import LabelledPhotos
+    from model.predict import Predictor
+
+commands = typer.Typer(
+    no_args_is_help=True, rich_markup_mode=None, help="Measure a network: success, centres, cost, ablation."
+)
+
+Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
+Beds = Annotated[Path | None, typer.Option(help="Folder where the rendered beds are kept, and looked for.")]
+Count = Annotated[int | None, typer.Option(min=1, help="Fewer beds, to see that it works.")]
+Real = Annotated[Path | None, typer.Option(help="Folder of photos with checked.json, measured too.")]
+Pictures = Annotated[
+    Path | None, typer.Option(help="Folder for pictures of the best, a typical and the worst image.")
+]
+
+
+@commands.command()
+def success(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    pictures: Pictures = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """Masks found, by light, form and size (the paper's Figure 13), on the rendered test beds.
+
+    Example: `fairyring bench network success --real photos --pictures examples`
+    """
+    from app.bench.network import tables
+    from app.bench.network.pictures import draw_examples
+
+    rows = []
+    for photos, predicted in _predicted(weights, beds, count, real, device):
+        rows += [{"set": photos.name} | row for row in tables.success_rows(predicted, photos)]
+        if pictures is not None:
+            draw_examples(predicted, photos, pictures)
+    print_rows("success", rows, as_json=as_json)
+
+
+@commands.command()
+def centres(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """From image to centre: CDR, pixels, missed and extra caps, on the rendered test beds.
+
+    Example: `fairyring bench network centres --real photos --json`
+    """
+    from app.bench.network import tables
+
+    rows = [
+        row
+        for photos, predicted in _predicted(weights, beds, count, real, device)
+        for row in tables.centre_rows(predicted, photos)
+    ]
+    print_rows("centres", rows, as_json=as_json)
+
+
+@commands.command()
+def cost(
+    *, weights: Weights = None, beds: Beds = None, device: OnDevice = Device.auto, as_json: AsJson = False
+) -> None:
+    """Time of each stage from a decoded 1280 × 720 photo to stored centres, and memory.
+
+    Example: `fairyring bench network cost --device cpu`
+    """
+    from app.bench.network.cost import cost_rows
+    from app.bench.network.sets import rendered
+
+    predictor = _predictor(weights, device)
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        photos = rendered("paper", folder, count=1, progress=progress)
+        rows = cost_rows(predictor, photos)
+    print_rows("cost", rows, as_json=as_json)
+
+
+@commands.command()
+def ablation(
+    *,
+    out: Annotated[Path, typer.Option(help="Folder for the beds and the runs; runs there are gone on with.")],
+    iterations: Annotated[int, typer.Option(min=1, help="Of every variant.")] = 600,
+    train_beds: Annotated[int, typer.Option(min=1, help="Of each preset, to train on.")] = 60,
+    count: Count = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """SOLOv2 against PR-SOLOv2, binary against soft targets, grids and points-NMS, all trained alike.
+
+    Example: `fairyring bench network ablation --out ablation --iterations 600`
+    """
+    from app.bench.network.ablation import ablation_rows
+    from app.bench.network.sets import rendered
+    from model.device import device_of
+
+    with shown_on_stderr() as progress:
+        test = rendered("paper", out, count=count, progress=progress)
+        rows = ablation_rows(
+            out, test, iterations=iterations, beds=train_beds, device=device_of(device), progress=progress
+        )
+    print_rows("ablation", rows, as_json=as_json)
+
+
+def _predicted(
+    weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str
+) -> Iterator[tuple[LabelledPhotos, dict[str, Any]]]:
+    """Each set, and what the network sees in it."""
+    from app.bench.network.sets import TEST_BEDS, checked, rendered
+    from app.bench.network.tables import predicted_document
+
+    predictor = _predictor(weights, device)
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        for name in TEST_BEDS:
+            photos = rendered(name, folder, count=count, progress=progress)
+            yield photos, predicted_document(predictor, photos, progress=progress)
+        if real is not None:
+            photos = checked(real)
+            yield photos, predicted_document(predictor, photos, progress=progress)
+
+
+def _predictor(weights: Path | None, device: str) -> Predictor:
+    from model.device import device_of
+    from model.network.weights import load_weights
+    from model.predict import Predictor
+    from model.shipped import SHIPPED
+
+    return Predictor(load_weights(weights or SHIPPED).network, device=device_of(device))
+
+
+@contextmanager
+def _folder(given: Path | None) -> Iterator[Path]:
+    if given is not None:
+        yield given
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        yield Path(folder)
