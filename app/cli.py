@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands import benchmarks, contour, demo, evaluate, project, serve, synth
+from app.commands import benchmarks, contour, demo, evaluate, network, project, serve, synth
 from app.commands.version import print_version
 from model.errors import FairyringError
 
@@ -27,6 +27,7 @@ app.command("export")(project.export)
 app.command("backup")(project.backup)
 app.command("demo")(demo.demo)
 app.command("synth")(synth.synth)
+app.command("predict")(network.predict)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
 app.add_typer(evaluate.commands, name="evaluate")

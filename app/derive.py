@@ -66,6 +66,14 @@ def whole_of(uid: str, cap: Cap, scene: Scene) -> Whole:
     return _wholes([outline, *others], [0], image=scene.image)[0]
 
 
+def wholes_of(outlines: Sequence[Outline], image: Image) -> list[Whole]:
+    """The whole outline of every cap of an image, each worked out among the others.
+
+    The outlines were checked before.
+    """
+    return _wholes(outlines, range(len(outlines)), image=image)
+
+
 def refit(scene: Scene, request: Refit) -> Fit:
     """Answers a refit: the whole outline of a cap as it is selected or dragged, and how it came about."""
     whole = whole_of(request.annotation, request.cap, scene)

@@ -8,7 +8,7 @@ from typing import Literal
 import msgspec
 from sqlalchemy import Connection
 
-from app.gateway.messages import Show
+from app.gateway.messages import Predicted, Show
 from app.gateway.photos import url_of_photo
 from app.session import Selection, Session
 from app.workspace import Workspace
@@ -109,3 +109,13 @@ async def set_status(workspace: Workspace, session: Session, image_id: int, stat
         if tab.document is not None and tab.shows(image_id):
             tab.document = msgspec.structs.replace(tab.document, image=image)
         tab.refresh("status", "images")
+
+
+async def show_predictions(workspace: Workspace, image_id: int) -> None:
+    """Draws what a run has just said of an image in every tab that shows it or lists it."""
+    _, document = await workspace.read(lambda c: workspace.documents.load(c, image_id))
+    for tab in workspace.tabs.others_on(image_id):
+        tab.take_predictions(document)
+        tab.send(Predicted(image=image_id, predictions=document.predictions))
+        tab.refresh("status", "cap")
+    workspace.refresh("images")

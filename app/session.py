@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
+import msgspec
 import viser
 
 from app.gateway.messages import FromServer, Layers, Notice
@@ -126,6 +127,14 @@ class Session:
             if self.shows(annotation.image):
                 self.annotations[annotation.uid] = annotation
                 self._scene = None
+
+    def take_predictions(self, document: Document) -> None:
+        """Notes what a later run said of the image on screen."""
+        if self.document is not None and self.shows(document.image.id):
+            self.document = msgspec.structs.replace(
+                self.document, predictions=document.predictions, run=document.run
+            )
+            self._scene = None
 
 
 class Tabs:

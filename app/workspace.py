@@ -49,7 +49,7 @@ class Workspace:
 
         def finished(job: Job) -> None:
             session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
-            self.refresh("jobs", "review", "images")
+            self.refresh("jobs", "predict", "review", "images")
 
         self.jobs.start(title, work, user=session.user, finished=finished)
         self.refresh("jobs")

@@ -34,6 +34,8 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
     category: str = "mushroom"
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
+    refusal: str | None = None
+    """Why there is no whole outline, though it was tried."""
     uid: str | None = None
     """The same again in the same run and image adds nothing."""
     extra: dict[str, Any] = field(default_factory=dict)
@@ -72,6 +74,28 @@ def add_run(
         "key": key,
     }
     return run_of(connection.execute(insert(run).values(**values).returning(run)).one())
+
+
+def continued_run(
+    connection: Connection, *, name: str, weights: str, settings: dict[str, Any], redo: bool = False
+) -> Run:
+    """The run that predictions of a network go into: the latest, if it is of these weights and settings.
+
+    Once another has been made since, or with ``redo``, a new one is entered: an image shows what the latest
+    run that saw it said.
+    """
+    latest = None if redo else latest_run(connection)
+    if latest is not None and latest.weights == weights and latest.settings == settings:
+        return latest
+    return add_run(connection, name=name, kind="network", weights=weights, settings=settings)
+
+
+def seen_by(connection: Connection, *, weights: str, settings: dict[str, Any]) -> set[int]:
+    """The images that ``continued_run`` would find seen already."""
+    latest = latest_run(connection)
+    if latest is None or latest.weights != weights or latest.settings != settings:
+        return set()
+    return set(connection.execute(select(image.c.id).where(image.c.run == latest.id)).scalars())
 
 
 def add_predictions(
@@ -133,5 +157,5 @@ def _values(
         "visible": cap.visible,
         "score": float(new.score),
         "extra": new.extra,
-        **values_of_fit(new.whole, new.centre, None),
+        **values_of_fit(new.whole, new.centre, new.refusal),
     }

@@ -20,6 +20,7 @@ from app.gateway.messages import (
     Incoming,
     Open,
     Outcomes,
+    Predicted,
     Refit,
     Saving,
     Select,
@@ -114,7 +115,7 @@ async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> Non
 
 async def _encode(message: FromServer) -> str:
     """As JSON; in a thread where the message may be large."""
-    if isinstance(message, Show):
+    if isinstance(message, Show | Predicted):
         return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
     return _outgoing.encode(message).decode()
 

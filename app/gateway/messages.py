@@ -9,7 +9,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from storage.records import Annotation, Cap, Document, Edit, Outcome, Shape, Status
+from storage.records import Annotation, Cap, Document, Edit, Outcome, Prediction, Shape, Status
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
@@ -121,6 +121,13 @@ class Changed(FromServer, frozen=True, tag="changed"):
     user: str
 
 
+class Predicted(FromServer, frozen=True, tag="predicted"):
+    """A run has just said this of the image on screen; what earlier runs said of it is no longer shown."""
+
+    image: int
+    predictions: list[Prediction]
+
+
 class Arc(Struct, frozen=True, kw_only=True):
     """A piece of a visible outline: own rim, hidden by a neighbour, cut by the image border, or a hollow."""
 
@@ -166,4 +173,4 @@ class Notice(FromServer, frozen=True, tag="notice"):
     level: Literal["info", "warning", "error"] = "info"
 
 
-Outgoing = Welcome | Show | Outcomes | Changed | Fit | Layers | Command | Notice
+Outgoing = Welcome | Show | Outcomes | Changed | Predicted | Fit | Layers | Command | Notice

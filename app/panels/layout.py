@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.panels import cap, images, jobs, review, status, tools, view
+from app.panels import cap, images, jobs, predict, review, status, tools, view
 from app.panels.callbacks import Redrawing
 from app.session import Session
 from app.workspace import Workspace
@@ -23,7 +23,8 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with tabs.add_tab("Review"):
             parts["review"] = review.build(workspace, session)
         with tabs.add_tab("Jobs"):
+            parts["predict"] = predict.build(workspace, session)
             parts["jobs"] = jobs.build(workspace, session)
         session.redraw = Redrawing(parts).ask
         session.has_panel = True
-    session.refresh("status", "cap", "images", "layers", "review", "jobs")
+    session.refresh("status", "cap", "images", "layers", "review", "predict", "jobs")

@@ -16,6 +16,7 @@ import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view
 /** @typedef {import("./messages.js").Document} Document */
 /** @typedef {import("./messages.js").Fit} Fit */
 /** @typedef {import("./messages.js").Image} Image */
+/** @typedef {import("./messages.js").Prediction} Prediction */
 /** @typedef {import("./store.js").Change} Change */
 /** @typedef {import("./store.js").Shape} Shape */
 /** @typedef {import("./view.js").View} View */
@@ -156,6 +157,24 @@ export class Desk {
     this.active = null;
     this.signals.picture.emit();
     this.signals.selection.emit();
+  }
+
+  /**
+   * Puts what a later run said in the place of what earlier ones did; what is being changed stays as it is.
+   *
+   * @param {Prediction[]} predictions
+   */
+  predict(predictions) {
+    const held = this.predictions.filter(({ uid }) => this.drafts.has(uid));
+    this.predictions = [...held, ...predictions.map(shapeOfPrediction)];
+    this.#items = null;
+    this.hovered = null;
+    const left = [...this.selected].filter((uid) => this.item(uid));
+    const lost = left.length < this.selected.size;
+    if (lost) this.active = null;
+    this.selected = new Set(left);
+    this.signals.picture.emit();
+    if (lost) this.signals.selection.emit();
   }
 
   /**

@@ -269,6 +269,9 @@ export class Editor {
         return this.#sync.settle(message.outcomes);
       case "changed":
         return this.#sync.changed(message.image, message.annotations);
+      case "predicted":
+        if (message.image === this.#desk.image?.id) this.#desk.predict(message.predictions);
+        return;
       case "fit":
         return this.#fitting.take(message);
       case "layers":

@@ -233,6 +233,13 @@
  */
 
 /**
+ * @typedef {Object} Predicted
+ * @property {"predicted"} type
+ * @property {number} image
+ * @property {Prediction[]} predictions
+ */
+
+/**
  * @typedef {Object} Arc
  * @property {"visible" | "hidden" | "border" | "concave"} kind
  * @property {number[]} points
@@ -271,6 +278,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Changed | Fit | Layers | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Changed | Predicted | Fit | Layers | Command | Notice} FromServer */
 
 export {};

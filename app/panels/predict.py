@@ -1,0 +1,86 @@
+"""Predictions of the network from the panel: which weights, and a button for one image and for all."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import anyio.to_thread
+
+from app.jobs import Progress, Result
+from app.opening import show_predictions
+from app.panels.callbacks import Redraw, person_did
+from app.panels.markup import Markup, element
+from app.session import Session
+from app.weights import require_weights, weights_of
+from app.workspace import Workspace
+from model.shipped import SHIPPED
+from storage.images import ImageFilter, list_ids
+from storage.project import Project
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """The weights that will be used, and the two buttons."""
+    gui = session.client.gui
+    shown = gui.add_html("")
+    one = gui.add_button("Predict this image")
+    every = gui.add_button("Predict every image")
+
+    async def predict_one() -> None:
+        if session.image is not None:
+            start(f"Prediction of {session.image.file_name}", [session.image.id])
+
+    async def predict_every() -> None:
+        ids = await workspace.read(lambda connection: list_ids(connection, ImageFilter()))
+        start("Prediction of every image", ids)
+
+    def start(title: str, image_ids: Sequence[int]) -> None:
+        loop = asyncio.get_running_loop()
+
+        def predicted(image_id: int) -> None:
+            # Waits, so that nobody is told of the end before the last image is drawn.
+            asyncio.run_coroutine_threadsafe(show_predictions(workspace, image_id), loop).result()
+
+        work = predict_work(workspace.project, image_ids, predicted=predicted)
+        workspace.start_job(session, title, work)
+
+    one.on_click(person_did(session, predict_one))
+    every.on_click(person_did(session, predict_every))
+
+    async def redraw() -> None:
+        found = await anyio.to_thread.run_sync(weights_of, workspace.project)
+        shown.content = weights_line(found, workspace.project).html
+        one.disabled = every.disabled = found is None
+
+    return redraw
+
+
+def weights_line(found: Path | None, project: Project) -> Markup:
+    """Says which weights the buttons take."""
+    if found is None:
+        folder = element("code", str(project.folder / "weights"))
+        words = ("No weights to predict with: put a file that fairyring train made into ", folder, ".")
+    elif found == SHIPPED:
+        words = ("Weights: ", element("strong", found.name), ", which came with Fairyring.")
+    else:
+        words = ("Weights: ", element("strong", found.name), ", the newest in the project's weights folder.")
+    return element("div", *words, class_="fr-jobs fr-quiet")
+
+
+def predict_work(
+    project: Project, image_ids: Sequence[int], *, predicted: Callable[[int], None]
+) -> Callable[[Progress], Result]:
+    """The work of a job that predicts images; ``predicted`` is called in its thread once one is stored."""
+
+    def work(progress: Progress) -> Result:
+        progress(0, len(image_ids), "Loading the network")
+        # Torch takes seconds to load, and a project can be served without it.
+        from app.predicting import leave_a_core, network_of, predict_images
+
+        leave_a_core()
+        network = network_of(require_weights(project))
+        outcome = predict_images(project, network, image_ids, progress=progress, predicted=predicted)
+        return Result(f"{network.name}: {outcome}")
+
+    return work

@@ -1,0 +1,32 @@
+"""Weights that nobody trained: of a network so small that a test can wait for it, and that sees caps anywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import torch
+
+from model.network.config import NetworkConfig
+from model.network.pr_solov2 import PRSOLOv2
+from model.network.weights import save_weights
+
+SMALL = NetworkConfig(
+    reduction=1,
+    fpn_channels=64,
+    head_channels=64,
+    head_convs=1,
+    kernel_channels=32,
+    grids=(16, 12, 8, 6, 4),
+    point_channels=32,
+    detail_channels=4,
+)
+
+
+def write_weights(path: Path, *, seed: int = 0) -> str:
+    """Writes them and returns their digest."""
+    torch.manual_seed(seed)
+    network = PRSOLOv2(SMALL)
+    with torch.no_grad():
+        network.category_head.logit.bias.fill_(3.0)
+        network.kernel_head.weights.weight.mul_(40)
+    return save_weights(path, network.state_dict(), SMALL, card={})
