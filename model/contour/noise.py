@@ -21,6 +21,8 @@ USUAL_POINTS = 20
 """How many rim points the usual noise weighs as much as."""
 PERFECT = 0.018
 """Variance of a rim point of a perfect mask, from the pixel grid alone, px²."""
+PERFECT_RIPPLE = 0.08
+"""Power of a perfect mask's ripples, from the pixel grid alone, px³."""
 RIPPLES = (6, 7, 8)
 """Waves round a rim that no outline follows, yet so long that they tell how smooth the noise is."""
 RIPPLE_GAIN = 1.9
@@ -55,7 +57,8 @@ def power(rims: Rims, fit: Fit, evidence: Evidence, priors: Priors, *, noise: fl
     if trust == 0:
         return expected_power(noise, priors)
     # A power is spread exponentially, with the median ln 2 of its mean.
-    measured = priors.noise_floor + RIPPLE_GAIN * float(np.median(ripples)) / np.log(2)
+    beyond = max(float(np.median(ripples)) / np.log(2) - PERFECT_RIPPLE, 0)
+    measured = priors.noise_floor + RIPPLE_GAIN * beyond
     return trust * measured + (1 - trust) * expected_power(noise, priors)
 
 
