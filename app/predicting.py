@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -13,10 +12,10 @@ from typing import Any
 import msgspec
 import numpy as np
 import torch
-from numpy.typing import NDArray
 from sqlalchemy import Connection
 
 from app.derive import Progress, Whole, wholes_of
+from app.originals import original_of
 from model import photo
 from model.device import device_of
 from model.errors import FairyringError
@@ -113,7 +112,7 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new = _predictions_of(network, image, project.folder / image.path)
+            new = _predictions_of(network, project, image)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
@@ -149,10 +148,11 @@ class _Run:
         add_predictions(connection, run_id=self._id, image_id=image_id, predictions=new)
 
 
-def _predictions_of(network: Network, image: Image, path: Path) -> list[NewPrediction]:
+def _predictions_of(network: Network, project: Project, image: Image) -> list[NewPrediction]:
+    pixels = photo.read(original_of(project, image))
     found = [
         (detection.score, outline)
-        for detection in network.predictor.detect(_read(path, image))
+        for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
         if (outline := _usable(detection.outline, image)) is not None
     ]
     wholes = wholes_of([outline for _, outline in found], image)
@@ -160,18 +160,6 @@ def _predictions_of(network: Network, image: Image, path: Path) -> list[NewPredi
         _prediction(nth, score, outline, whole)
         for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
     ]
-
-
-def _read(path: Path, image: Image) -> NDArray[np.uint8]:
-    """(height, width, 3), RGB. Coordinates hold for the very photo that was imported."""
-    try:
-        with path.open("rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError as error:
-        raise FairyringError(f"{path} cannot be opened ({error.strerror}); put the photo back.") from error
-    if digest != image.sha256:
-        raise FairyringError(f"{path} is no longer the photo that was imported; put that back.")
-    return np.ascontiguousarray(photo.read(path)[:, :, ::-1])
 
 
 def _usable(outline: Outline, image: Image) -> Outline | None:

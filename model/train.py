@@ -3,7 +3,7 @@ after a kill.
 
 In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP,
 ``weights.safetensors`` at the end (the best, or the last where nothing was validated), ``log.jsonl``,
-``curves.png``, and ``run.json`` with the recipe and what the labels came from.
+``curves.png``, ``run.json`` with the recipe, and ``labels.json`` with what was learnt from.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from model.processes import Place, together
 from model.recipe import Recipe
 from model.validate import validate
 
-BEST, FINAL, RUN = "best.safetensors", "weights.safetensors", "run.json"
+BEST, FINAL, RUN, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
 SEEDS = 1_000_003
 """Apart from each other, the seeds of two runs' iterations do not meet."""
 
@@ -141,6 +141,7 @@ def train(
     resume: bool = False,
     workers: int = 1,
     notes: dict[str, Any] | None = None,
+    labels: bytes | None = None,
     report: Report = lambda _: None,
 ) -> TrainResult:
     """Trains on crops of ``examples`` and keeps what does best on ``validation`` (whole photos; may be
@@ -148,8 +149,8 @@ def train(
 
     ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights
     if they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights'
-    card. The same examples, recipe and seed give the same weights on one machine, however often the run was
-    resumed.
+    card, ``labels`` into ``labels.json``. The same examples, recipe and seed give the same weights on one
+    machine, however often the run was resumed.
 
     Raises TrainError, DataError, CheckpointError, WeightsError.
     """
@@ -161,14 +162,14 @@ def train(
         card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
         checks = list(validation)[: recipe.validate_images]
         plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, place=place, report=report)
-        _prepare(run, plan, resume=resume)
+        _prepare(run, plan, labels, resume=resume)
         step = _Step(run.network)
         trained = DistributedDataParallel(step) if place.world > 1 else step
         try:
             for batches in _batches(examples, recipe, run.iteration, workers=workers, place=place):
                 losses = _iterate(run, trained, batches, plan)
-                report(_progress(run, plan, losses, "training"))
                 _afterwards(run, plan, losses)
+                report(_progress(run, plan, losses, "training"))
         except BaseException:
             if place.leads and run.iteration:
                 save_checkpoint(out, run.state())
@@ -197,7 +198,7 @@ def _start(network: PRSOLOv2, recipe: Recipe, device: torch.device) -> _Run:
     )
 
 
-def _prepare(run: _Run, plan: _Plan, *, resume: bool) -> None:
+def _prepare(run: _Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
     """The output folder: empty for a new run, with its checkpoint for one that goes on."""
     out, place = plan.out, plan.place
     try:
@@ -212,6 +213,8 @@ def _prepare(run: _Run, plan: _Plan, *, resume: bool) -> None:
     if place.leads:
         train_log.cut_after(out, run.iteration)
         (out / RUN).write_bytes(msgspec.json.format(msgspec.json.encode(plan.card), indent=2))
+        if labels is not None:
+            (out / LABELS).write_bytes(labels)
 
 
 def _batches(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 from enum import StrEnum
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -29,7 +30,88 @@ class Device(StrEnum):
     cuda = "cuda"
 
 
+LABELS_HELP = "A project's folder, or a COCO file with its photos beside it or in images/."
 OnDevice = Annotated[Device, typer.Option(help="auto takes a GPU where there is one.")]
+
+
+def train(
+    source: Annotated[Path, typer.Argument(metavar="PROJECT|COCO.json", help=LABELS_HELP)],
+    *,
+    out: Annotated[Path, typer.Option(help="A new folder for weights, log and curves.")],
+    config: Annotated[
+        Path | None, typer.Option(help="TOML recipe; what it leaves out is the paper's.")
+    ] = None,
+    weights: Annotated[
+        str | None,
+        typer.Option(
+            metavar="BASE",
+            help="Weights to train further, or imagenet. For a project the shipped ones, else imagenet.",
+        ),
+    ] = None,
+    val: Annotated[
+        Path | None, typer.Option(metavar="COCO.json", help="Validate on these; else on a part.")
+    ] = None,
+    iterations: Annotated[int | None, typer.Option(min=1, help="A tenth of them, at most, warm up.")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="The same seed gives the same weights.")] = None,
+    device: OnDevice = Device.auto,
+    workers: Annotated[
+        int | None, typer.Option(min=0, help="Processes that cut crops: one, or eight for a GPU.")
+    ] = None,
+    resume: Annotated[bool, typer.Option(help="Go on with the run in --out where it stopped.")] = False,
+    lenient: Annotated[
+        bool, typer.Option(help="Leave out labels that cannot be used instead of stopping.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Train the network on a project's approved images (else its annotated ones), or on a COCO file.
+
+    Validated is on --val, else on images whose split is val, else on three tenths of four images and more.
+    After Ctrl+C (exit code 130) or a crash, --resume goes on. Several GPUs: start it with torchrun.
+
+    Example: `fairyring train beds --out run --iterations 500`
+    """
+    leads = int(os.environ.get("RANK", "0")) == 0
+    try:
+        with shown_on_stderr(silent=not leads) as progress:
+            # Torch and all takes a while to load.
+            from app.training import Asked, train_as_asked
+
+            asked = Asked(
+                config=config,
+                iterations=iterations,
+                seed=seed,
+                weights=weights,
+                val=val,
+                resume=resume,
+                lenient=lenient,
+            )
+            result = train_as_asked(source, out, asked, device=device, workers=workers, progress=progress)
+    except KeyboardInterrupt:
+        if leads:
+            typer.echo(_after_interruption(out), err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    except FairyringError:
+        if leads:
+            raise
+        raise typer.Exit(1) from None
+    if leads and as_json:
+        typer.echo(json.dumps({"weights": str(result.weights), "validation": result.figures}))
+    elif leads:
+        typer.echo(f"Wrote {result.weights}.{_validated(result.figures)}", err=True)
+
+
+def _after_interruption(out: Path) -> str:
+    from model.checkpoint import CHECKPOINT
+
+    if (out / CHECKPOINT).exists():
+        return f"Stopped; the same command with --resume goes on with {out}."
+    return "Stopped before the first iteration was done; nothing is lost by starting anew."
+
+
+def _validated(figures: dict[str, Any]) -> str:
+    if not figures:
+        return ""
+    return f" Validation at iteration {figures['iteration']}: AP {figures['AP']:.4f}."
 
 
 def predict(

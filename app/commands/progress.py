@@ -10,8 +10,8 @@ Progress = Callable[[int, int, str], None]
 
 
 @contextmanager
-def shown_on_stderr() -> Iterator[Progress]:
-    """Shows a bar with the time left while the block runs; silent where stderr is no terminal."""
+def shown_on_stderr(*, silent: bool = False) -> Iterator[Progress]:
+    """Shows a bar with the time left while the block runs; nothing if ``silent`` or stderr is no terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
@@ -23,7 +23,7 @@ def shown_on_stderr() -> Iterator[Progress]:
         TimeRemainingColumn(),
     )
     console = Console(stderr=True)
-    with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+    with Bar(*columns, console=console, transient=True, disable=silent or not console.is_terminal) as bar:
         task = bar.add_task("", total=None)
 
         def report(done: int, total: int, what: str) -> None:

@@ -1,0 +1,23 @@
+"""Whether a photo on disk is still the one that was imported: its coordinates hold for no other."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from model.errors import FairyringError
+from storage.project import Project
+from storage.records import Image
+
+
+def original_of(project: Project, image: Image) -> Path:
+    """Where the photo lies. Raises FairyringError where it is gone or has been changed."""
+    path = project.folder / image.path
+    try:
+        with path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise FairyringError(f"{path} cannot be opened ({error.strerror}); put the photo back.") from error
+    if digest != image.sha256:
+        raise FairyringError(f"{path} is no longer the photo that was imported; put that back.")
+    return path

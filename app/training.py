@@ -1,0 +1,169 @@
+"""Training from what people labelled: the recipe, what it starts from, and a record of both."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from msgspec import structs
+
+from app.derive import Progress
+from app.labels import Labels, divided, labels_at
+from model.checkpoint import CheckpointError
+from model.device import device_of
+from model.errors import FairyringError
+from model.network.config import NetworkConfig
+from model.network.pr_solov2 import PRSOLOv2
+from model.network.weights import load_weights
+from model.recipe import Recipe, checked, read_recipe
+from model.shipped import SHIPPED
+from model.train import RUN, TrainResult, train
+from storage.project import SETTINGS
+
+IMAGENET = "imagenet"
+"""Given in place of weights: a new network, its backbone as ImageNet left it."""
+WARM_UP_SHARE = 0.1
+"""Of the iterations, where their number is given: the paper's 500 of 5000."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """What a person asks of a run; None asks for nothing."""
+
+    config: Path | None = None
+    """A recipe."""
+    iterations: int | None = None
+    seed: int | None = None
+    weights: str | None = None
+    """A file to start from, or ``imagenet``."""
+    val: Path | None = None
+    """A COCO file to validate on."""
+    resume: bool = False
+    lenient: bool = False
+    """Labels that cannot be used are left out."""
+
+    @property
+    def recipe(self) -> Recipe | None:
+        """The paper's with what the file and the options say otherwise; None where they say nothing."""
+        if self.config is None and self.iterations is None and self.seed is None:
+            return None
+        return recipe_of(self.config, iterations=self.iterations, seed=self.seed)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """What a run starts from."""
+
+    recipe: Recipe
+    base: PRSOLOv2 | None
+    """Trained further; None for a new network, and for a run that goes on from its checkpoint."""
+    notes: dict[str, Any]
+    """For ``run.json`` and the card of the weights."""
+
+
+def train_as_asked(
+    source: Path, out: Path, asked: Asked, *, device: str, workers: int | None, progress: Progress
+) -> TrainResult:
+    """Trains on the labels of a project or a COCO file; everything is kept in the folder ``out``.
+
+    A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
+    for. Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
+    """
+    on = device_of(device)
+    labels = labels_at(source, lenient=asked.lenient, progress=progress)
+    validation = labels_at(asked.val, lenient=asked.lenient, progress=progress) if asked.val else None
+    record = record_of(labels, validation)
+    if asked.resume:
+        start = continuation_of(out, asked.recipe, record)
+    else:
+        recipe = asked.recipe or Recipe()
+        usual = shipped_for(recipe) if (source / SETTINGS).exists() else None
+        start = start_of(recipe, asked.weights or usual, record)
+    learnt, checks = divided(labels, validation, seed=start.recipe.seed)
+    return train(
+        learnt,
+        checks,
+        out,
+        recipe=start.recipe,
+        device=on,
+        base=start.base,
+        resume=asked.resume,
+        workers=(8 if on.type == "cuda" else 1) if workers is None else workers,
+        notes=start.notes,
+        labels=record,
+        report=lambda now: progress(now.iteration, now.iterations, f"{now.what}, loss {now.loss:.3f}"),
+    )
+
+
+def recipe_of(config: Path | None, *, iterations: int | None, seed: int | None) -> Recipe:
+    """The paper's recipe with what a file and the options say otherwise. Raises RecipeError."""
+    recipe = read_recipe(config) if config else Recipe()
+    if iterations is not None:
+        warm_up = min(recipe.warm_up, int(iterations * WARM_UP_SHARE))
+        recipe = structs.replace(recipe, iterations=iterations, warm_up=warm_up)
+    return checked(recipe if seed is None else structs.replace(recipe, seed=seed), where="The recipe")
+
+
+def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
+    """A new run. ``weights`` names a file, or ``imagenet``; None is as good. Raises FairyringError."""
+    notes: dict[str, Any] = {"labels": digest_of(labels), "base": IMAGENET}
+    if weights in (None, IMAGENET):
+        return Start(recipe=recipe, base=None, notes=notes)
+    loaded = load_weights(Path(weights))
+    network = loaded.network.config
+    if recipe.network not in (network, NetworkConfig()):
+        raise FairyringError(
+            f"{weights} holds a network of other settings than the recipe's; "
+            f"leave them out of the recipe, or give --weights {IMAGENET}."
+        )
+    recipe = checked(structs.replace(recipe, network=network), where=f"The recipe for {weights}")
+    return Start(recipe=recipe, base=loaded.network, notes=notes | {"base": loaded.digest})
+
+
+def shipped_for(recipe: Recipe) -> str | None:
+    """The shipped weights, where there are some of the recipe's network."""
+    if not SHIPPED.exists() or load_weights(SHIPPED).network.config != recipe.network:
+        return None
+    return str(SHIPPED)
+
+
+def continuation_of(out: Path, asked: Recipe | None, labels: bytes) -> Start:
+    """The run in ``out``, to go on with. ``asked`` None asks for its own recipe.
+
+    Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
+    """
+    try:
+        card = msgspec.json.decode((out / RUN).read_bytes(), type=dict[str, Any])
+        recipe = msgspec.convert(card.pop("recipe"), Recipe)
+    except FileNotFoundError:
+        raise CheckpointError(f"There is nothing to resume in {out}; start without --resume.") from None
+    except (OSError, KeyError, msgspec.MsgspecError) as error:
+        raise CheckpointError(f"{out / RUN} cannot be read; start again in a new folder.") from error
+    asked = asked and structs.replace(asked, network=recipe.network)
+    if asked not in (None, recipe):
+        changed = [name for name in Recipe.__struct_fields__ if getattr(asked, name) != getattr(recipe, name)]
+        raise FairyringError(
+            f"The run in {out} has another recipe ({', '.join(changed)}); "
+            "resume without --config, --iterations and --seed, or train into a new folder."
+        )
+    if card.get("labels") != digest_of(labels):
+        raise FairyringError(
+            f"The labels have changed since the run in {out} began; train into a new folder, "
+            f"from its weights if you like."
+        )
+    card.pop("images", None)
+    return Start(recipe=recipe, base=None, notes=card)
+
+
+def record_of(labels: Labels, validation: Labels | None) -> bytes:
+    """``labels.json``: which images were learnt from, and which revision of each cap."""
+    record = labels.record | ({"validation": validation.record} if validation else {})
+    return msgspec.json.encode(record)
+
+
+def digest_of(labels: bytes) -> str:
+    """SHA-256 of ``labels.json``."""
+    return hashlib.sha256(labels).hexdigest()
