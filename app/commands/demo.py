@@ -16,7 +16,7 @@ def demo(
     count: Annotated[int, typer.Option(help="How many beds.", min=1)] = 12,
     seed: Annotated[int, typer.Option(help="The same seed gives the same beds.")] = 1,
 ) -> None:
-    """Make a project of generated beds with simulated predictions; an existing one is left as it is.
+    """Make a project of generated beds with predictions; an existing one is left as it is.
 
     Example: `fairyring demo demo && fairyring serve demo`
     """
