@@ -11,7 +11,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F  # noqa: N812
 
-from model.network.boxes import boxes_of, with_margin
+from model.network.boxes import main_boxes_of, with_margin
 from model.network.decode import Instances
 from model.network.point_rend import PointHead, PointMaps, Queries
 
@@ -36,7 +36,7 @@ def draw(
 ) -> list[Drawn]:
     """Every instance at photo pixels. Without a point head its logits are enlarged bilinearly."""
     drawn: list[Drawn | None] = [None] * len(instances.scores)
-    boxes = boxes_of(instances.logits > 0)
+    boxes = main_boxes_of(instances.logits > 0)
     windows = with_margin(boxes, least=1)
     corners, sides = windows[:, :2], windows[:, 2:].amax(1)
     for low, high in zip((0, *WINDOWS), WINDOWS, strict=False):
