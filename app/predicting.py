@@ -60,9 +60,11 @@ class Outcome:
     """A sentence for each photo that could not be read."""
 
     def __str__(self) -> str:
+        if not self.images and not self.problems:
+            return f"Nothing to do: these weights have seen {counted(self.known, 'image')} before."
         parts = [f"{counted(self.images, 'image')} predicted, {counted(self.caps, 'cap')} seen"]
         if self.known:
-            parts.append(f"{counted(self.known, 'image')} had been seen by these weights before")
+            parts.append(f"{counted(self.known, 'image')} seen by these weights before")
         if self.problems:
             parts.append(f"{counted(len(self.problems), 'photo')} could not be read: {self.problems[0]}")
         return "; ".join(parts).removesuffix(".") + "."

@@ -1,0 +1,73 @@
+"""Somebody asks for predictions in the panel, sees them come, and stops what takes too long."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from app.bench.serving import Server, served
+from app.bench.tab import Tab
+from storage.documents import load_document
+from storage.images import ImageFilter, list_ids
+from storage.importing import import_paths
+from storage.project import create_project, open_project
+from tests.unit.app.sighted import write_weights
+
+PHOTOS = 12
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """Small photos of noise, no predictions, and weights that see caps in them."""
+    photos, generator = tmp_path / "photos", np.random.default_rng(1)
+    photos.mkdir()
+    for number in range(PHOTOS):
+        noise = generator.integers(0, 255, (240, 320, 3), dtype=np.uint8)
+        cv2.imwrite(str(photos / f"bed_{number}.png"), noise)
+    with create_project(tmp_path / "beds") as made:
+        import_paths(made, [photos])
+    write_weights(tmp_path / "beds" / "weights" / "own.safetensors")
+    return tmp_path / "beds"
+
+
+@pytest.fixture
+def server(project: Path) -> Iterator[Server]:
+    with served(project) as running:
+        yield running
+
+
+def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
+    project: Path, server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server)
+    assert tab.state("predictions") == []
+    tab.page.get_by_role("tab", name="Jobs").click()
+    tab.page.get_by_text("the newest in the project's weights folder").wait_for()
+
+    tab.page.get_by_role("button", name="Predict this image").click()
+    tab.wait_for("window.fairyring.state.predictions.length > 0")
+    tab.page.get_by_text("1 image predicted").first.wait_for()
+    tab.press("Shift+a")
+    tab.saved()
+    accepted = tab.state("shapes")
+    assert accepted
+    assert all(shape["cap"]["prediction"] for shape in accepted)
+
+    tab.page.get_by_role("button", name="Predict every image").click()
+    tab.page.locator(".fr-jobs progress[max]").wait_for()
+    tab.page.get_by_text("Predicting bed_").first.wait_for()
+    tab.press("n")
+    tab.wait_for("window.fairyring.state.image.file_name === 'bed_1.png'")
+    tab.wait_for("window.fairyring.state.predictions.length > 0")
+    tab.page.get_by_role("button", name="Cancel what is running").click()
+    tab.page.get_by_text("what was done so far is kept").first.wait_for()
+    with open_project(project) as opened, opened.read() as connection:
+        documents = [load_document(connection, i) for i in list_ids(connection, ImageFilter())]
+    predicted = [document for document in documents if document.run is not None]
+    assert 2 <= len(predicted) < PHOTOS
+    assert {document.run.id for document in predicted if document.run} == {1}
+    assert len(documents[0].annotations) == len(accepted)
