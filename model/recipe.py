@@ -79,6 +79,8 @@ def checked(recipe: Recipe, *, where: str) -> Recipe:
     for name, value in least.items():
         if value < 1:
             raise RecipeError(f"{where}: {name} is {value}; it must be 1 or more.")
+    if recipe.seed < 0:
+        raise RecipeError(f"{where}: seed is {recipe.seed}; it must be 0 or more.")
     if not recipe.rate > 0 or not recipe.clip > 0:
         raise RecipeError(f"{where}: rate and clip must be more than 0.")
     if not 0 <= recipe.average < 1:
