@@ -52,7 +52,8 @@ def draw_curves(folder: Path) -> None:
     for term in TERMS:
         losses.plot([s["iteration"] for s in steps], _smoothed([s[term] for s in steps]), label=term)
     for name in ("AP", "AP50", "AP75", "S50"):
-        figures.plot([c["iteration"] for c in checks], [c[name] for c in checks], "o-", label=name)
+        known = [check for check in checks if name in check]
+        figures.plot([c["iteration"] for c in known], [c[name] for c in known], "o-", label=name)
     for axes, title in ((losses, f"losses, mean of {SMOOTH} iterations"), (figures, "validation")):
         axes.set(xlabel="iteration", title=title)
         axes.grid(alpha=0.3)
