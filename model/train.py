@@ -12,6 +12,7 @@ import math
 import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -81,6 +82,10 @@ class _Run:
     average: AveragedModel | None
     iteration: int = 0
     best: dict[str, Any] = field(default_factory=dict)
+    checked: int = 0
+    """The iteration that was validated last."""
+    stepping: bool = False
+    """Whether the weights are half way between two iterations."""
 
     @property
     def kept(self) -> PRSOLOv2:
@@ -95,6 +100,7 @@ class _Run:
             "average": self.average.state_dict() if self.average else None,
             "iteration": self.iteration,
             "best": msgspec.json.encode(self.best).decode(),
+            "checked": self.checked,
         }
 
     def load(self, state: dict[str, Any]) -> None:
@@ -105,6 +111,7 @@ class _Run:
             self.average.load_state_dict(state["average"])
         self.iteration = state["iteration"]
         self.best = msgspec.json.decode(state["best"])
+        self.checked = state.get("checked", self.iteration)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,30 +161,43 @@ def train(
 
     Raises TrainError, DataError, CheckpointError, WeightsError.
     """
-    with together(device) as place:
+    with together(device) as place, _faded_is_nought():
         torch.manual_seed(recipe.seed)
-        # Gradients that fade out would otherwise be counted with at a hundredth of the speed.
-        torch.set_flush_denormal(True)
         run = _start(base or _new_network(recipe), recipe, place.device)
         card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
         checks = list(validation)[: recipe.validate_images]
+        if not any(example.caps for example in checks):
+            checks = []
         plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, place=place, report=report)
         _prepare(run, plan, labels, resume=resume)
         step = _Step(run.network)
-        trained = DistributedDataParallel(step) if place.world > 1 else step
+        # A process whose crops show no cap uses neither the kernels nor the points.
+        trained = DistributedDataParallel(step, find_unused_parameters=True) if place.world > 1 else step
         try:
+            if resume:
+                _catch_up(run, plan)
             for batches in _batches(examples, recipe, run.iteration, workers=workers, place=place):
                 losses = _iterate(run, trained, batches, plan)
                 _afterwards(run, plan, losses)
                 report(_progress(run, plan, losses, "training"))
         except BaseException:
-            if place.leads and run.iteration:
+            if place.leads and run.iteration and not run.stepping:
                 save_checkpoint(out, run.state())
             raise
         if place.leads:
             _finish(run, plan)
         place.wait()
         return TrainResult(weights=out / FINAL, figures=run.best)
+
+
+@contextmanager
+def _faded_is_nought() -> Iterator[None]:
+    """Gradients that fade out would otherwise be counted with at a hundredth of the speed."""
+    torch.set_flush_denormal(True)
+    try:
+        yield
+    finally:
+        torch.set_flush_denormal(False)
 
 
 def _new_network(recipe: Recipe) -> PRSOLOv2:
@@ -206,7 +226,13 @@ def _prepare(run: _Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> N
     except OSError as error:
         raise TrainError(f"{out} cannot be made: {error.strerror or error}.") from error
     if resume:
-        run.load(load_checkpoint(out, device=place.device))
+        state = load_checkpoint(out, device=place.device)
+        try:
+            run.load(state)
+        except (KeyError, TypeError, ValueError, RuntimeError) as error:
+            raise TrainError(
+                f"The run in {out} had another recipe; resume with that in {out / RUN}."
+            ) from error
     elif any(out.iterdir()) and place.leads:
         raise TrainError(f"{out} is not empty; give a new folder, or --resume to go on with that run.")
     place.wait()
@@ -271,10 +297,12 @@ def _iterate(run: _Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> d
             f"The loss is no number any more at iteration {run.iteration}; "
             "lower the rate, or lengthen the warm-up, and resume."
         )
+    run.stepping = True
     run.optimiser.step()
     if run.average is not None:
         run.average.update_parameters(run.network)
     run.iteration += 1
+    run.stepping = False
     return {
         "category": category,
         "mask": mask,
@@ -287,15 +315,26 @@ def _iterate(run: _Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> d
 
 def _afterwards(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
     """Logs an iteration; validates and saves where it is time to."""
-    recipe = plan.recipe
-    last = run.iteration == recipe.iterations
     if plan.place.leads:
         train_log.append(plan.out, [{"iteration": run.iteration, **losses}])
-        if plan.checks and (last or run.iteration % recipe.validate_every == 0):
+        if plan.checks and _is_time(run, plan, plan.recipe.validate_every):
             _check(run, plan, losses)
-        if last or run.iteration % recipe.save_every == 0:
+        if _is_time(run, plan, plan.recipe.save_every):
             save_checkpoint(plan.out, run.state())
             train_log.draw_curves(plan.out)
+    plan.place.wait()
+
+
+def _is_time(run: _Run, plan: _Plan, every: int) -> bool:
+    return run.iteration == plan.recipe.iterations or run.iteration % every == 0
+
+
+def _catch_up(run: _Run, plan: _Plan) -> None:
+    """The validation that the run was stopped in."""
+    due = plan.checks and run.checked < run.iteration and _is_time(run, plan, plan.recipe.validate_every)
+    if due and plan.place.leads:
+        losses = [entry for entry in train_log.read(plan.out) if "rate" in entry]
+        _check(run, plan, losses[-1])
     plan.place.wait()
 
 
@@ -308,6 +347,7 @@ def _check(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
     figures = validate(run.kept, plan.checks, device=plan.place.device, progress=say)
     found = {name: value for name, value in figures.items() if isinstance(value, float)}
     train_log.append(plan.out, [{"iteration": run.iteration, **found}])
+    run.checked = run.iteration
     if not run.best or found["AP"] > run.best["AP"]:
         run.best = {"iteration": run.iteration, **found}
         _save(run, plan, plan.out / BEST)
