@@ -4,10 +4,19 @@ import pytest
 
 from model.errors import FairyringError
 from model.geometry import Circle
+from storage.derived import underived_of
 from storage.documents import load_document, load_prediction, load_predictions, load_run, load_version
 from storage.errors import StoreError
 from storage.journal import Derived, commit
-from storage.predictions import NewPrediction, add_predictions, add_run, latest_run, list_runs
+from storage.predictions import (
+    NewPrediction,
+    add_predictions,
+    add_run,
+    continued_run,
+    latest_run,
+    list_runs,
+    seen_by,
+)
 from storage.records import Cap, Edit
 
 
@@ -123,3 +132,45 @@ def test_new_predictions_make_figures_of_the_image_stale(beds, square):
     predict(beds, square)
     with beds.read() as connection:
         assert load_version(connection, 1) > before
+
+
+def continued(project, *, image=None, **keys):
+    of = {"name": "n", "weights": "abc", "settings": {"least": 0.3}} | keys
+
+    def work(connection):
+        run = continued_run(connection, **of)
+        if image is not None:
+            add_predictions(connection, run_id=run.id, image_id=image, predictions=[])
+        return run
+
+    return project.write(work)
+
+
+def seen(project, *, weights="abc", least=0.3):
+    with project.read() as connection:
+        return seen_by(connection, weights=weights, settings={"least": least})
+
+
+def test_a_run_of_the_same_weights_and_settings_goes_on_until_another_is_made(beds, square):
+    first = continued(beds, image=1)
+    assert seen(beds) == {1}
+    assert continued(beds, image=2, name="the name may change").id == first.id
+    assert seen(beds) == {1, 2}
+    assert seen(beds, weights="other") == seen(beds, least=0.5) == set()
+    predict(beds, square, name="another", image=2)
+    assert seen(beds) == set()
+    again = continued(beds, image=1)
+    assert again.id > first.id
+    assert seen(beds) == {1}
+    assert len({again.id, continued(beds, redo=True).id, continued(beds, settings={}).id}) == 3
+
+
+def test_a_cap_without_a_whole_outline_keeps_the_reason(beds, square):
+    new = NewPrediction(visible=square, score=0.5, refusal="Too little of its rim is in sight.")
+
+    def work(connection):
+        run = add_run(connection, name="r", kind="network")
+        add_predictions(connection, run_id=run.id, image_id=1, predictions=[new])
+        return underived_of(connection, 1).predictions
+
+    assert beds.write(work) == [], "nobody needs to try again"
