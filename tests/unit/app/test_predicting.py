@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -230,6 +232,11 @@ def test_a_button_predicts_every_image_until_it_is_cancelled(
     kinds = [run.kind if run else None for run in runs.values()]
     assert kinds[0] == "network"
     assert kinds[2] is None
+
+
+def test_a_project_is_served_and_help_is_shown_without_torch() -> None:
+    script = "import sys, app.cli, app.gateway.server; sys.exit('torch' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
 
 
 def test_without_weights_the_panel_says_what_to_do(

