@@ -19,13 +19,19 @@ from model.network.fold import fold_batch_norms
 from model.network.pr_solov2 import Outputs, PRSOLOv2
 from model.network.refine import draw
 from model.outlines import outline_of_logits
-from model.raster import Rle, rle_of_outline
+from model.raster import Rle, iou_matrix, rle_of_outline
 from model.settle import Window, settle
 from model.tiles import Tile, tiles_of
 
 
 class DeviceError(FairyringError):
     """A device that this machine does not have."""
+
+
+SLACK = 8.0
+"""Pixels: two pieces that see a cap at a seam do not put its middle in the very same place."""
+SAME = 0.5
+"""IoU from which two pieces have seen the same cap."""
 
 
 class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -97,11 +103,12 @@ class Predictor:
     def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
         """The caps of a photo, in falling order of score."""
         found = [
-            detection
-            for tile, outputs, place in seen.pieces
+            (detection, nth)
+            for nth, (tile, outputs, place) in enumerate(seen.pieces)
             for detection in self._of_piece(seen, tile, outputs, place, settings or self.settings.decode)
         ]
-        return sorted(found, key=lambda detection: -detection.score)
+        found.sort(key=lambda one: -one[0].score)
+        return _without_repeats(found) if len(seen.pieces) > 1 else [detection for detection, _ in found]
 
     def detect(self, photo: NDArray[np.uint8]) -> list[Detection]:
         """``see`` and ``read`` of one photo."""
@@ -130,6 +137,18 @@ class Predictor:
             if not outline:
                 continue
             points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
-            if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist()):
+            if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist(), slack=SLACK):
                 rle = rle_of_outline(outline, height=seen.height, width=seen.width)
                 yield Detection(score=score, outline=outline, rle=rle)
+
+
+def _without_repeats(found: list[tuple[Detection, int]]) -> list[Detection]:
+    """Of detections in falling order of score, each with its piece, those no other piece told."""
+    rles = [detection.rle for detection, _ in found]
+    overlaps, pieces = iou_matrix(rles, rles), np.array([piece for _, piece in found])
+    kept: list[int] = []
+    for nth in range(len(found)):
+        repeats = (overlaps[nth, kept] >= SAME) & (pieces[kept] != pieces[nth])
+        if not repeats.any():
+            kept.append(nth)
+    return [found[nth][0] for nth in kept]

@@ -24,10 +24,10 @@ class Tile(Struct, frozen=True, kw_only=True):
     own: tuple[float, float, float, float]
     """left, top, right, bottom. The own parts of all tiles fill the photo, edges going to the later one."""
 
-    def owns(self, x: float, y: float) -> bool:
-        """Whether a cap about this point is this tile's."""
+    def owns(self, x: float, y: float, *, slack: float = 0.0) -> bool:
+        """Whether a cap about this point is this tile's, or no more than ``slack`` pixels from being so."""
         left, top, right, bottom = self.own
-        return left <= x < right and top <= y < bottom
+        return left - slack <= x < right + slack and top - slack <= y < bottom + slack
 
 
 def tiles_of(width: int, height: int) -> list[Tile]:
