@@ -24,7 +24,7 @@ DISCS = (
 RECIPE = Recipe(
     network=TINY,
     crop=CropConfig(side=SIDE, most_rotation_deg=0, most_brightness=0),
-    iterations=70,
+    iterations=100,
     batch=2,
     optimiser="adamw",
     rate=2e-3,

@@ -65,3 +65,9 @@ def test_no_more_tiles_than_needed() -> None:
         (float("-inf"), float("-inf"), 1152.0, float("inf")),
         (1152.0, float("-inf"), float("inf"), float("inf")),
     ]
+
+
+def test_slack_widens_what_is_owned_on_every_side() -> None:
+    left, right = tiles_of(2 * SIDE - OVERLAP, 100)
+    assert [left.owns(x, 50, slack=8.0) for x in (1100, 1159.9, 1160)] == [True, True, False]
+    assert [right.owns(x, 50, slack=8.0) for x in (1143.9, 1144, 2000)] == [False, True, True]

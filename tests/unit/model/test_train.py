@@ -301,16 +301,21 @@ def test_two_processes_train_together(tmp_path: Path) -> None:
     script = tmp_path / "together.py"
     script.write_text(TOGETHER)
     torchrun = [sys.executable, "-m", "torch.distributed.run", "--standalone", "--nproc-per-node", "2"]
-    done = subprocess.run(
+    process = subprocess.Popen(
         [*torchrun, str(script), str(tmp_path)],
         env=_environment(),
-        capture_output=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
         text=True,
-        timeout=180,
-        check=False,
     )
-    assert done.returncode == 0, done.stderr[-3000:]
-    assert done.stdout.count("finished") == 2
+    try:
+        said, complaints = process.communicate(timeout=180)
+    finally:
+        # Ends its processes, too, which a kill would leave waiting for each other.
+        process.terminate()
+        process.wait()
+    assert process.returncode == 0, complaints[-3000:]
+    assert said.count("finished") == 2
     out = tmp_path / "out"
     assert [iteration for iteration, _ in logged(out, "rate")] == [1, 2]
     assert len(logged(out, "AP")) == 1
