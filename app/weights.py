@@ -23,6 +23,6 @@ def require_weights(project: Project) -> Path:
     if found is None:
         raise FairyringError(
             f"There are no weights to predict with; put a .safetensors file that fairyring train made "
-            f"into {project.folder / 'weights'}."
+            f"into {project.folder / 'weights'}, or name it with --weights."
         )
     return found

@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 import torch
 from safetensors import SafetensorError, safe_open
-from safetensors.torch import save_file
+from safetensors.torch import save
 from torch import Tensor
 
 from model.errors import FairyringError
@@ -59,7 +59,8 @@ def save_weights(
     beside = path.with_name(path.name + ".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        save_file(stored, beside, metadata=metadata)
+        # save_file would let nobody but its owner read the file.
+        beside.write_bytes(save(stored, metadata=metadata))
         beside.replace(path)
     except (OSError, SafetensorError) as error:
         raise WeightsError(f"{path} cannot be written: {error}.") from error

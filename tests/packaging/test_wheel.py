@@ -22,9 +22,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return next(out.glob("*.whl"))
 
 
-def test_the_wheel_carries_the_editor_and_the_migrations(wheel: Path) -> None:
+def test_the_wheel_carries_the_editor_the_weights_and_the_migrations(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     assert "app/static/editor/main.js" in names
+    assert {f"model/weights/{file.name}" for file in (TOP / "model" / "weights").iterdir()} <= names
     assert any(name.startswith("storage/migrations/versions/") for name in names)
     assert not any(name.startswith(("tests/", "static/")) for name in names)
 
