@@ -257,7 +257,7 @@ def test_the_backbone_starts_from_imagenet_and_frozen_stages_stay(
 
 def test_given_weights_are_trained_further(examples: list[Example], tmp_path: Path, learnt: Learnt) -> None:
     base = load_weights(learnt.result.weights).network
-    run(examples, tmp_path / "out", replace(SHORT, iterations=1, rate=1e-9), base=base)
+    run(examples, tmp_path / "out", replace(RECIPE, iterations=1, rate=1e-9), base=base)
     ((_, loss),) = logged(tmp_path / "out", "mask")
     assert loss < 0.3
 
