@@ -38,6 +38,8 @@ class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """How photos are read."""
 
     decode: DecodeConfig = field(default_factory=DecodeConfig)
+    finest: int = 2
+    """Photo pixels a side of the finest points that PointRend decides on: 1, 2, 4 …"""
     batch: int = 1
     """Pieces of one size that go through the network together."""
 
@@ -128,6 +130,7 @@ class Predictor:
             instances,
             image=place,
             mask_stride=self.network.config.mask_stride,
+            finest=self.settings.finest,
         )
         scores = instances.scores.tolist()
         windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]

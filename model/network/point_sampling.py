@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import torch
 from torch import Tensor
+from torch.nn import functional as F  # noqa: N812
 
 OVERSAMPLING = 3
 UNCERTAIN_SHARE = 0.75
@@ -20,14 +21,16 @@ def sample_maps(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) 
     x = (points[:, 0] / stride - 0.5).clamp(0, width - 1)
     y = (points[:, 1] / stride - 0.5).clamp(0, height - 1)
     left, top = x.floor().clamp(max=max(width - 2, 0)), y.floor().clamp(max=max(height - 2, 0))
-    across, down = (x - left)[:, None], (y - top)[:, None]
+    across, down = x - left, y - top
     first = (owners * height + top.long()) * width + left.long()
     right, below = min(1, width - 1), width * min(1, height - 1)
-    corners = (rows.index_select(0, first + step) for step in (0, right, below, below + right))
-    upper_left, upper_right, lower_left, lower_right = corners
-    upper = torch.lerp(upper_left.float(), upper_right.float(), across)
-    lower = torch.lerp(lower_left.float(), lower_right.float(), across)
-    return torch.lerp(upper, lower, down)
+    corners = torch.stack([first, first + right, first + below, first + below + right], dim=1)
+    weights = torch.stack(
+        [(1 - across) * (1 - down), across * (1 - down), (1 - across) * down, across * down], dim=1
+    )
+    # One pass over the rows, where sums of gathered corners would take seven.
+    rows = rows if rows.is_floating_point() else rows.float()
+    return F.embedding_bag(corners, rows, per_sample_weights=weights.to(rows.dtype), mode="sum")
 
 
 def training_points(coarse: Tensor, boxes: Tensor, *, count: int, stride: float) -> Tensor:

@@ -17,6 +17,8 @@ from model.network.point_rend import PointHead, PointMaps, Queries
 
 POINTS_PER_SIDE = 8
 """Points seen anew in each doubling, for each pixel of the window's side: 784 at 98 pixels, 2048 at 256."""
+LEAST_SCORE = 0.3
+"""Instances less sure are only enlarged: hardly any is a cap, and there are many."""
 WINDOWS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
 """Sides of windows in cells of the mask; instances of one side are drawn together."""
 
@@ -32,41 +34,80 @@ class Drawn(NamedTuple):
 
 
 def draw(
-    head: PointHead | None, maps: PointMaps | None, instances: Instances, *, image: int, mask_stride: int
+    head: PointHead | None,
+    maps: PointMaps | None,
+    instances: Instances,
+    *,
+    image: int,
+    mask_stride: int,
+    finest: int = 1,
 ) -> list[Drawn]:
-    """Every instance at photo pixels. Without a point head its logits are enlarged bilinearly."""
+    """Every instance at photo pixels.
+
+    ``finest``: photo pixels a side of the finest points seen anew. From there on, and without a point head,
+    logits are enlarged bilinearly, and so are those of instances whose score is below LEAST_SCORE.
+    """
     drawn: list[Drawn | None] = [None] * len(instances.scores)
     boxes = main_boxes_of(instances.logits > 0)
     windows = with_margin(boxes, least=1)
     corners, sides = windows[:, :2], windows[:, 2:].amax(1)
+    sure = instances.scores >= LEAST_SCORE
     for low, high in zip((0, *WINDOWS), WINDOWS, strict=False):
-        of_side = ((sides > low) & (sides <= high)).nonzero().squeeze(1)
-        if not len(of_side):
-            continue
-        logits = _windows(instances.logits[of_side], corners[of_side].long(), side=high)
-        at = corners[of_side] * mask_stride
-        stride = mask_stride
-        while stride > 1:
-            logits, stride = (
-                F.interpolate(logits[:, None], scale_factor=2.0, mode="bilinear")[:, 0],
-                stride // 2,
-            )
-            if head is not None and maps is not None:
-                kernels, frames = instances.kernels[of_side], boxes[of_side] * mask_stride
-                points, chosen = _unclear(logits, at, stride=stride)
-                each = torch.arange(len(logits), device=logits.device).repeat_interleave(chosen.shape[1])
-                flat = logits.view(len(logits), -1)
-                queries = Queries(
-                    points=points,
-                    owners=torch.full_like(each, image),
-                    kernels=kernels[each],
-                    boxes=frames[each],
-                    coarse=flat.gather(1, chosen).flatten(),
-                )
-                flat.scatter_(1, chosen, head(maps, queries).reshape(chosen.shape))
-        for index, (x, y), window in zip(of_side.tolist(), at.long().tolist(), logits, strict=True):
-            drawn[index] = Drawn(x, y, window)
+        for seen_anew in (True, False):
+            group = ((sides > low) & (sides <= high) & (sure == seen_anew)).nonzero().squeeze(1)
+            if not len(group):
+                continue
+            at = corners[group] * mask_stride
+            logits = _windows(instances.logits[group], corners[group].long(), side=high)
+            asker = None
+            if seen_anew and head is not None and maps is not None:
+                kernels, frames = instances.kernels[group], boxes[group] * mask_stride
+                asker = _Asker(head, maps, kernels, frames, at, image)
+            logits = _enlarged(logits, asker, stride=mask_stride, finest=finest)
+            for index, (x, y), window in zip(group.tolist(), at.long().tolist(), logits, strict=True):
+                drawn[index] = Drawn(x, y, window)
     return [one for one in drawn if one is not None]
+
+
+class _Asker(NamedTuple):
+    """What the point head is told about n instances of one image."""
+
+    head: PointHead
+    maps: PointMaps
+    kernels: Tensor
+    """(n, E)."""
+    boxes: Tensor
+    """(n, 4), photo pixels."""
+    corners: Tensor
+    """(n, 2): of their windows, photo pixels."""
+    image: int
+
+
+def _enlarged(logits: Tensor, asker: _Asker | None, *, stride: int, finest: int) -> Tensor:
+    """Windows (n, s, s) of cells of ``stride`` photo pixels → (n, s · stride, s · stride) photo pixels."""
+    while stride > 1:
+        stride //= 2
+        logits = F.interpolate(logits[:, None], scale_factor=2.0, mode="bilinear")[:, 0]
+        if asker is not None and stride >= finest:
+            _see_anew(logits, asker, stride=stride)
+    return logits
+
+
+def _see_anew(logits: Tensor, asker: _Asker, *, stride: int) -> None:
+    """Puts the head's logits into ``logits`` (n, s, s) where these are nearest 0."""
+    count, side = logits.shape[:2]
+    flat = logits.view(count, -1)
+    chosen = flat.abs().topk(min(POINTS_PER_SIDE * side, flat.shape[1]), dim=1, largest=False).indices
+    where = torch.stack([chosen % side, chosen // side], dim=2)
+    each = torch.arange(count, device=logits.device).repeat_interleave(chosen.shape[1])
+    queries = Queries(
+        points=(asker.corners[:, None] + (where.float() + 0.5) * stride).reshape(-1, 2),
+        owners=torch.full_like(each, asker.image),
+        kernels=asker.kernels[each],
+        boxes=asker.boxes[each],
+        coarse=flat.gather(1, chosen).flatten(),
+    )
+    flat.scatter_(1, chosen, asker.head(asker.maps, queries).reshape(chosen.shape))
 
 
 def _windows(logits: Tensor, corners: Tensor, *, side: int) -> Tensor:
@@ -76,15 +117,3 @@ def _windows(logits: Tensor, corners: Tensor, *, side: int) -> Tensor:
     y = (corners[:, 1:] + reach).clamp(0, logits.shape[1] - 1)
     each = torch.arange(len(logits), device=logits.device)[:, None, None]
     return logits[each, y[:, :, None], x[:, None, :]]
-
-
-def _unclear(logits: Tensor, at: Tensor, *, stride: int) -> tuple[Tensor, Tensor]:
-    """The points (n · k, 2) where windows (n, s, s) are nearest 0, and their places (n, k) in them.
-
-    ``at`` (n, 2): the windows' first corners, photo pixels.
-    """
-    count, side = logits.shape[:2]
-    flat = logits.view(count, -1)
-    chosen = flat.abs().topk(min(POINTS_PER_SIDE * side, flat.shape[1]), dim=1, largest=False).indices
-    where = torch.stack([chosen % side, chosen // side], dim=2)
-    return (at[:, None] + (where.float() + 0.5) * stride).reshape(-1, 2), chosen

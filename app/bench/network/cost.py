@@ -102,7 +102,14 @@ def _masks(predictor: Predictor, photo: NDArray[np.uint8]) -> object:
     for _, outputs, place in seen.pieces:
         instances = decode(outputs, place, config, predictor.settings.decode)
         head, maps = predictor.network.point_head, outputs.point_maps
-        drawn += draw(head, maps, instances, image=place, mask_stride=config.mask_stride)
+        drawn += draw(
+            head,
+            maps,
+            instances,
+            image=place,
+            mask_stride=config.mask_stride,
+            finest=predictor.settings.finest,
+        )
     return drawn
 
 

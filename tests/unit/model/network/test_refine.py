@@ -101,3 +101,20 @@ def test_only_the_unclear_are_asked_again() -> None:
             if mine.any():
                 away = logits_at(kernel.expand(int(mine.sum()), 3), queries.points[mine]).abs()
                 assert float(away.median()) < 8
+
+
+def test_points_finer_than_asked_for_are_left_to_interpolation() -> None:
+    head = Knowing()
+    maps = cast("PointMaps", object())
+    draw(cast("PointHead", head), maps, instances(8), image=0, mask_stride=8, finest=2)
+    assert all(bool(((queries.points / 2) % 0.5 == 0).all()) for queries in head.asked)
+    assert not any(bool((queries.points % 1 == 0.5).any()) for queries in head.asked)
+
+
+def test_instances_that_are_hardly_caps_are_not_asked_about() -> None:
+    head = Knowing()
+    given = instances(4)._replace(scores=torch.tensor([0.9, 0.31, 0.29]))
+    drawn = draw(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=4)
+    asked = {tuple(kernel) for queries in head.asked for kernel in queries.kernels.tolist()}
+    assert asked == {tuple(disc) for disc in DISCS[:2].tolist()}
+    assert len(drawn) == 3
