@@ -28,7 +28,7 @@ export class Glass {
   }
 
   /**
-   * Wipes the glass and lays it over `bounds`, as far as they are in the viewport.
+   * Wipes the glass and lays it over `bounds`, as far as they are in the viewport; `settle` ends the drawing.
    *
    * @param {Bounds | null} bounds  CSS pixels of the viewport; null takes the glass away
    * @param {Size} size  of the viewport
@@ -37,16 +37,19 @@ export class Glass {
    */
   lay(bounds, size, ratio) {
     const area = bounds && areaOf(bounds, size, ratio);
-    this.#canvas.hidden = !area;
-    if (!area) return null;
-    if (this.#fits(area)) this.#wipe();
+    if (!area || this.#fits(area)) this.#wipe();
     else this.#cut(area);
-    return this.#context;
+    return area && this.#context;
   }
 
   /** Something has been drawn on it. */
   soil() {
     this.#soiled = true;
+  }
+
+  /** Takes a glass that nothing has been drawn on away: a canvas in sight costs, drawn on or not. */
+  settle() {
+    this.#canvas.hidden = !this.#soiled;
   }
 
   /** @type {(area: Area) => boolean} */

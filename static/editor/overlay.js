@@ -54,20 +54,18 @@ export class Overlay {
   #drawCaps(desk, ratio) {
     const shapes = desk.hidden ? [] : hoveredAndLifted(desk);
     const context = this.#caps.lay(onScreen(desk.view, reachOfAll(shapes, desk)), desk.size, ratio);
-    if (!context) return;
-    this.#caps.soil();
-    for (const shape of shapes) {
-      const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
-      if (only) drawHovered(context, desk.view, shape);
-      else drawLifted(context, desk.view, shape, desk);
+    if (context) {
+      this.#caps.soil();
+      drawShapes(context, shapes, desk);
     }
+    this.#caps.settle();
   }
 
   /** @type {(desk: Desk, ratio: number, sketches: Sketch[]) => void} */
   #drawSketches({ hidden, size, view }, ratio, sketches) {
     const context = this.#sketches.lay({ x0: 0, y0: 0, x1: size.width, y1: size.height }, size, ratio);
-    if (!context || hidden) return;
-    for (const sketch of sketches) if (sketch(context, view)) this.#sketches.soil();
+    if (context && !hidden) for (const sketch of sketches) if (sketch(context, view)) this.#sketches.soil();
+    this.#sketches.settle();
   }
 }
 
@@ -92,6 +90,15 @@ function onScreen(view, bounds) {
   const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
   const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
   return { x0: x0 - REACH_PX, y0: y0 - REACH_PX, x1: x1 + REACH_PX, y1: y1 + REACH_PX };
+}
+
+/** @type {(context: Context, shapes: Shape[], desk: Desk) => void} */
+function drawShapes(context, shapes, desk) {
+  for (const shape of shapes) {
+    const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
+    if (only) drawHovered(context, desk.view, shape);
+    else drawLifted(context, desk.view, shape, desk);
+  }
 }
 
 /** @type {(context: Context, view: View, shape: Shape) => void} */

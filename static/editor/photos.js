@@ -54,7 +54,7 @@ export class Photos {
   }
 
   /**
-   * @param {CanvasRenderingContext2D} context
+   * @param {import("./pen.js").Context} context
    * @param {View} view
    * @param {Bounds} region
    */

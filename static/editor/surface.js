@@ -6,17 +6,18 @@
  * @module
  */
 
+import { Sheet } from "./sheet.js";
 import { joined, overlap, toScreen, visibleBounds } from "./view.js";
 
 /** @typedef {import("./view.js").Bounds} Bounds */
 /** @typedef {import("./view.js").Size} Size */
 /** @typedef {import("./view.js").View} View */
 /** @typedef {{view: View, width: number, height: number, ratio: number}} Frame  what a picture is to show, CSS pixels */
-/** @typedef {{canvas: HTMLCanvasElement, context: CanvasRenderingContext2D, view: View | null}} Sheet */
+/** @typedef {OffscreenCanvasRenderingContext2D} Context */
 
 /**
  * @typedef {Object} Artist
- * @property {(context: CanvasRenderingContext2D, view: View, region: Bounds) => void} paint  at once
+ * @property {(context: Context, view: View, region: Bounds) => void} paint  at once
  * @property {(frame: Frame) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
  * @property {() => void} ready  a better picture has come, or can be made now: show it again
  */
@@ -27,10 +28,9 @@ const MOST_STRETCH = 2;
 
 export class Surface {
   visible = true;
-  /** @type {Sheet} */
-  #front;
-  /** @type {Sheet} */
-  #back;
+  #sheet;
+  /** What is drawn on the sheet. @type {View | null} */
+  #drawn = null;
   /** @type {Size} */
   #size = { width: 0, height: 0 };
   #ratio = 1;
@@ -48,8 +48,7 @@ export class Surface {
    */
   constructor(host, artist) {
     this.#artist = artist;
-    this.#front = sheet(host);
-    this.#back = sheet(host);
+    this.#sheet = new Sheet(host);
   }
 
   /** The picture is of something else now; the old one stays until the new one is there. */
@@ -61,13 +60,12 @@ export class Surface {
   /** Nothing is to be seen until the next picture is there. */
   blank() {
     this.discard();
-    this.#front.view = null;
+    this.#drawn = null;
   }
 
   /** @type {(filter: string) => void} */
   tint(filter) {
-    this.#front.canvas.style.filter = filter;
-    this.#back.canvas.style.filter = filter;
+    this.#sheet.canvas.style.filter = filter;
   }
 
   /**
@@ -84,7 +82,7 @@ export class Surface {
       this.#ratio = ratio;
       this.discard();
     }
-    const good = !this.#stale && this.#front.view !== null && covers(this.#front.view, view);
+    const good = !this.#stale && this.#drawn !== null && covers(this.#drawn, view);
     if (!good && !this.#mayRest(view)) this.#renew(view);
     this.#shown = view;
     this.#place(view);
@@ -94,7 +92,7 @@ export class Surface {
   /** Whether a stretched picture will do until the view has come to rest. @type {(view: View) => boolean} */
   #mayRest(view) {
     clearTimeout(this.#resting);
-    const drawn = this.#front.view;
+    const drawn = this.#drawn;
     if (this.#stale || !drawn || view === this.#shown || !fills(drawn, view, this.#size)) return false;
     this.#resting = window.setTimeout(() => this.#artist.ready(), REST_MS);
     return true;
@@ -129,27 +127,21 @@ export class Surface {
     bitmap.close();
   }
 
-  /** @type {(view: View, draw: (context: CanvasRenderingContext2D) => void) => void} */
+  /** @type {(view: View, draw: (context: Context) => void) => void} */
   #swap(view, draw) {
-    [this.#front, this.#back] = [this.#back, this.#front];
-    const { canvas, context } = this.#front;
-    const { width, height } = sheetSize(this.#size);
-    canvas.width = Math.round(width * this.#ratio);
-    canvas.height = Math.round(height * this.#ratio);
-    canvas.style.width = `${width}px`;
-    canvas.style.height = `${height}px`;
-    context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
-    draw(context);
-    this.#front.view = view;
-    this.#back.canvas.hidden = true;
+    this.#sheet.cut(sheetSize(this.#size), this.#ratio);
+    draw(this.#sheet.context);
+    this.#drawn = view;
     this.#stale = false;
   }
 
   /** @type {(view: View) => void} */
   #place(view) {
-    const { canvas, view: drawn } = this.#front;
+    const { canvas } = this.#sheet;
+    const drawn = this.#drawn;
     canvas.hidden = !drawn || !this.visible;
     if (!drawn) return;
+    this.#sheet.show();
     const stretch = view.scale / drawn.scale;
     const x = view.x - (drawn.x + MARGIN) * stretch;
     const y = view.y - (drawn.y + MARGIN) * stretch;
@@ -164,12 +156,12 @@ export class Surface {
    */
   repair(rects) {
     this.#job?.repairs.push(...rects);
-    const { view, context } = this.#front;
+    const view = this.#drawn;
     if (!view || this.#stale) return;
-    for (const rect of mergedRects(rects)) this.#repairOne(context, ownView(view), rect);
+    for (const rect of mergedRects(rects)) this.#repairOne(this.#sheet.context, ownView(view), rect);
   }
 
-  /** @type {(context: CanvasRenderingContext2D, view: View, rect: Bounds) => void} */
+  /** @type {(context: Context, view: View, rect: Bounds) => void} */
   #repairOne(context, view, rect) {
     const { width, height } = sheetSize(this.#size);
     const [left, top] = toScreen(view, rect.x0, rect.y0).map((value) => Math.max(0, Math.floor(value) - 4));
@@ -187,16 +179,6 @@ export class Surface {
     this.#artist.paint(context, view, visibleBounds({ ...view, x: view.x - left, y: view.y - top }, size));
     context.restore();
   }
-}
-
-/** @type {(host: HTMLElement) => Sheet} */
-function sheet(host) {
-  const canvas = document.createElement("canvas");
-  const context = canvas.getContext("2d");
-  if (!context) throw new Error("This browser cannot draw on a canvas.");
-  canvas.hidden = true;
-  host.append(canvas);
-  return { canvas, context, view: null };
 }
 
 /** @type {(size: Size) => Size} */
