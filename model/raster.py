@@ -255,10 +255,11 @@ def _fills_its_area(points: Points) -> bool:
 
 
 def _covered(part: list[float], width: int, height: int) -> Outline:
-    outline = outline_of_mask(mask_of_outline([part], height=height, width=width))
-    if not outline:
+    code = rle_of_outline([part], height=height, width=width)
+    if area_of_rle(code) == 0:
         raise GeometryError("A polygon that crosses itself covers no pixel.")
-    return outline
+    # By its runs, as a mask of the whole image would take a hundred times as long.
+    return outline_of_rle(code)
 
 
 def _outline(cut: Mask, *, corner: tuple[int, int], image: tuple[int, int]) -> Outline:

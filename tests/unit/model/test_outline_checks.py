@@ -98,6 +98,16 @@ def test_a_figure_of_eight_becomes_what_it_covers(part: list[float]) -> None:
     assert area_of_outline(checked) == pytest.approx(800, abs=25)
 
 
+def test_a_figure_of_eight_costs_no_more_in_a_larger_image() -> None:
+    def seconds(width: int, height: int) -> float:
+        start = time.perf_counter()
+        check_outline([BOW_TIE], width=width, height=height)
+        return time.perf_counter() - start
+
+    small, large = (min(seconds(side, side) for _ in range(7)) for side in (100, 8000))
+    assert large < 10 * small
+
+
 @given(points=vertices)
 @settings(max_examples=300, deadline=None)
 def test_what_passes_covers_what_was_given(points: list[tuple[int, int]]) -> None:
