@@ -10,6 +10,8 @@ SCRIPT = r"""
   for (const kind of ["pointermove", "pointerup", "keydown"]) {
     addEventListener(kind, (event) => (last[kind] = event.timeStamp), true);
   }
+  // Some browsers tell of a move before they tell of it to those that listen for `pointermove`.
+  addEventListener("pointerrawupdate", ({ timeStamp }) => (last.pointermove = timeStamp), true);
   const laps = { saved: [], fit: [], vertex: [] };
   const asked = new Map();
   const sequence = (data) => Number(/"seq":\s*(\d+)/.exec(data)[1]);
