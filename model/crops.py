@@ -97,7 +97,8 @@ def cut_crop(
 def _first(extent: float, side: int, rng: np.random.Generator) -> float:
     """Where the crop begins along one axis: anywhere it fits, in the middle of a photo that is smaller."""
     room = extent - side
-    return float(np.floor(rng.uniform(0, room))) if room > 0 else room / 2
+    # Whole pixels, so that a crop that is neither turned nor scaled is as sharp as its photo.
+    return float(np.floor(min(rng.uniform(0, room + 1), room) if room > 0 else room / 2))
 
 
 def _mask_in(outline: Outline, side: int) -> Mask | None:

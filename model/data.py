@@ -115,9 +115,14 @@ def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
     targets = torch.nn.functional.avg_pool2d(masks[:, None].float(), network.mask_stride)[:, 0]
     return Caps(
         masks=masks,
-        targets=targets if soft else (targets >= 0.5).float(),
+        targets=targets if soft else _binary(targets),
         cells=[torch.from_numpy(level) for level in cells],
     )
+
+
+def _binary(targets: torch.Tensor) -> torch.Tensor:
+    """(n, h, w) shares → 1 where half of a cell is cap; the fullest cells where none is half full."""
+    return (targets >= targets.amax((1, 2), keepdim=True).clamp(max=0.5)).float()
 
 
 @lru_cache(maxsize=CACHED_PHOTOS)

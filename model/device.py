@@ -17,4 +17,6 @@ def device_of(name: str) -> torch.device:
         return torch.device("cuda" if torch.cuda.is_available() else "cpu")
     if name == "cuda" and not torch.cuda.is_available():
         raise DeviceError("This machine has no GPU that PyTorch can use; take --device cpu.")
+    if name not in ("cpu", "cuda"):
+        raise DeviceError(f"There is no device called {name}; take auto, cpu or cuda.")
     return torch.device(name)

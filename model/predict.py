@@ -12,7 +12,6 @@ import torch
 from msgspec import Struct, field
 from numpy.typing import NDArray
 
-from model.errors import FairyringError
 from model.geometry import Outline
 from model.network.decode import DecodeConfig, decode
 from model.network.fold import fold_batch_norms
@@ -22,11 +21,6 @@ from model.outlines import outline_of_logits
 from model.raster import Rle, iou_matrix, rle_of_outline
 from model.settle import Window, settle
 from model.tiles import Tile, tiles_of
-
-
-class DeviceError(FairyringError):
-    """A device that this machine does not have."""
-
 
 SLACK = 8.0
 """Pixels: two pieces that see a cap at a seam do not put its middle in the very same place."""

@@ -12,7 +12,7 @@ from msgspec import Struct, field
 
 from model.crops import CropConfig
 from model.errors import FairyringError
-from model.network.config import NetworkConfig
+from model.network.config import GROUPS, LEVELS, NetworkConfig
 
 
 class RecipeError(FairyringError):
@@ -87,9 +87,33 @@ def checked(recipe: Recipe, *, where: str) -> Recipe:
         raise RecipeError(f"{where}: average is {recipe.average}; it must be at least 0 and below 1.")
     if not 0 <= recipe.frozen <= 4:
         raise RecipeError(f"{where}: frozen is {recipe.frozen}; a backbone has four stages.")
+    if recipe.weight_decay < 0 or recipe.warm_up < 0:
+        raise RecipeError(f"{where}: weight_decay and warm_up must be 0 or more.")
+    _check_network(recipe.network, where)
     side, multiple = recipe.crop.side, recipe.network.multiple
     if side < multiple or side % multiple:
         raise RecipeError(f"{where}: crop.side is {side}; it must be a multiple of {multiple}.")
     if not 0 < recipe.crop.scale[0] <= recipe.crop.scale[1]:
         raise RecipeError(f"{where}: crop.scale must be two factors above 0, the smaller first.")
     return recipe
+
+
+def _check_network(network: NetworkConfig, where: str) -> None:
+    widths = {
+        "fpn_channels": network.fpn_channels,
+        "head_channels": network.head_channels,
+        "kernel_channels": network.kernel_channels,
+    }
+    for name, width in widths.items():
+        if width < GROUPS or width % GROUPS:
+            raise RecipeError(f"{where}: network.{name} is {width}; it must be a multiple of {GROUPS}.")
+    if network.reduction < 1 or network.reduction & (network.reduction - 1):
+        raise RecipeError(f"{where}: network.reduction is {network.reduction}; it must be 1, 2, 4 …")
+    if min(network.grids) < 1 or min(network.head_convs, network.point_channels) < 1:
+        raise RecipeError(f"{where}: network.grids, head_convs and point_channels must be 1 or more.")
+    if network.detail_channels < 0:
+        raise RecipeError(f"{where}: network.detail_channels is below 0; 0 is none.")
+    if len(network.scale_ranges) != LEVELS or any(low > high for low, high in network.scale_ranges):
+        raise RecipeError(
+            f"{where}: network.scale_ranges must be {LEVELS} pairs of sizes, the smaller first."
+        )

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 CONFIDENT = 0.3
 """Score from which an instance takes pixels from others."""
+LEAST_LEFT = 0.3
+"""Share of its pixels that an instance must keep: what is left of a second view of a cap is a thin ring."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +26,8 @@ class Window:
 def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[Window]:
     """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
 
-    Where two caps touch, the edge then runs where they are equally sure.
+    Where two caps touch, the edge then runs where they are equally sure. Of an instance that loses most of
+    its pixels nothing stays above 0.
     """
     inside = [_cut(window, width=width, height=height) for window in windows]
     first, second = np.zeros((2, height, width), np.float32)
@@ -36,7 +39,10 @@ def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, he
     for nth, window in enumerate(inside):
         place = _place(window)
         others = np.where(owner[place] == nth, second[place], first[place])
-        settled.append(replace(window, logits=window.logits - others))
+        logits = window.logits - others
+        if np.count_nonzero(logits > 0) < LEAST_LEFT * np.count_nonzero(window.logits > 0):
+            logits = np.minimum(logits, 0)
+        settled.append(replace(window, logits=logits))
     return settled
 
 

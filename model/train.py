@@ -1,5 +1,4 @@
-"""Training (sections 3 and 6.1): batches in, weights out, and every step of it kept so that it can go on
-after a kill.
+"""Training (sections 3 and 6.1): batches in, weights out, and a state to go on from after a kill.
 
 In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP,
 ``weights.safetensors`` at the end (the best, or the last where nothing was validated), ``log.jsonl``,
@@ -13,7 +12,7 @@ import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,22 +21,20 @@ import torch
 from msgspec import Struct
 from torch import nn
 from torch.nn.parallel import DistributedDataParallel
-from torch.optim.swa_utils import AveragedModel
-from torch.utils.data import DataLoader
 
 from model import train_log
 from model.checkpoint import load_checkpoint, save_checkpoint
-from model.data import Batches, Example, SampleConfig
+from model.data import Example
 from model.errors import FairyringError
-from model.network.backbone import load_backbone
-from model.network.lite0 import imagenet_weights
+from model.loading import batches_of
 from model.network.losses import DICE_WEIGHT
 from model.network.objective import Batch, Losses, losses_of
 from model.network.pr_solov2 import PRSOLOv2
 from model.network.weights import save_weights
-from model.optimiser import average_of, freeze_stages, freeze_statistics, optimiser_of, rate_at, set_rate
+from model.optimiser import freeze_statistics, rate_at, set_rate
 from model.processes import Place, together
 from model.recipe import Recipe
+from model.run import Run, new_network, start_run
 from model.validate import validate
 
 BEST, FINAL, RUN, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
@@ -71,47 +68,6 @@ class TrainResult:
     weights: Path
     figures: dict[str, Any]
     """Of the best validation; empty where there was none."""
-
-
-@dataclass(kw_only=True)
-class _Run:
-    """What changes from iteration to iteration."""
-
-    network: PRSOLOv2
-    optimiser: torch.optim.Optimizer
-    average: AveragedModel | None
-    iteration: int = 0
-    best: dict[str, Any] = field(default_factory=dict)
-    checked: int = 0
-    """The iteration that was validated last."""
-    stepping: bool = False
-    """Whether the weights are half way between two iterations."""
-
-    @property
-    def kept(self) -> PRSOLOv2:
-        """The network whose weights count: the average where there is one."""
-        return self.network if self.average is None else self.average.module  # pyright: ignore
-
-    def state(self) -> dict[str, Any]:
-        """For a checkpoint."""
-        return {
-            "network": self.network.state_dict(),
-            "optimiser": self.optimiser.state_dict(),
-            "average": self.average.state_dict() if self.average else None,
-            "iteration": self.iteration,
-            "best": msgspec.json.encode(self.best).decode(),
-            "checked": self.checked,
-        }
-
-    def load(self, state: dict[str, Any]) -> None:
-        """From a checkpoint."""
-        self.network.load_state_dict(state["network"])
-        self.optimiser.load_state_dict(state["optimiser"])
-        if self.average is not None:
-            self.average.load_state_dict(state["average"])
-        self.iteration = state["iteration"]
-        self.best = msgspec.json.decode(state["best"])
-        self.checked = state.get("checked", self.iteration)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,8 +107,7 @@ def train(
     labels: bytes | None = None,
     report: Report = lambda _: None,
 ) -> TrainResult:
-    """Trains on crops of ``examples`` and keeps what does best on ``validation`` (whole photos; may be
-    empty).
+    """Trains on crops of ``examples``; keeps what does best on ``validation``, whole photos or nothing.
 
     ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights
     if they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights'
@@ -163,7 +118,7 @@ def train(
     """
     with together(device) as place, _faded_is_nought():
         torch.manual_seed(recipe.seed)
-        run = _start(base or _new_network(recipe), recipe, place.device)
+        run = start_run(base or new_network(recipe), recipe, device=place.device)
         card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
         checks = list(validation)[: recipe.validate_images]
         if not any(example.caps for example in checks):
@@ -176,7 +131,7 @@ def train(
         try:
             if resume:
                 _catch_up(run, plan)
-            for batches in _batches(examples, recipe, run.iteration, workers=workers, place=place):
+            for batches in batches_of(examples, recipe, first=run.iteration, workers=workers, place=place):
                 losses = _iterate(run, trained, batches, plan)
                 _afterwards(run, plan, losses)
                 report(_progress(run, plan, losses, "training"))
@@ -200,25 +155,7 @@ def _faded_is_nought() -> Iterator[None]:
         torch.set_flush_denormal(False)
 
 
-def _new_network(recipe: Recipe) -> PRSOLOv2:
-    network = PRSOLOv2(recipe.network)
-    state = imagenet_weights() if recipe.network.backbone == "lite0" else None
-    if state is not None:
-        load_backbone(network.backbone, state)
-    return network
-
-
-def _start(network: PRSOLOv2, recipe: Recipe, device: torch.device) -> _Run:
-    freeze_stages(network, recipe.frozen)
-    network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
-    return _Run(
-        network=network,
-        optimiser=optimiser_of(network, recipe),
-        average=average_of(network, recipe.average) if recipe.average else None,
-    )
-
-
-def _prepare(run: _Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
+def _prepare(run: Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
     """The output folder: empty for a new run, with its checkpoint for one that goes on."""
     out, place = plan.out, plan.place
     try:
@@ -243,37 +180,7 @@ def _prepare(run: _Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> N
             (out / LABELS).write_bytes(labels)
 
 
-def _batches(
-    examples: Sequence[Example], recipe: Recipe, first: int, *, workers: int, place: Place
-) -> Iterator[list[Batch]]:
-    """The batches of every iteration from ``first`` on; each of several processes has its share of them."""
-    if recipe.batch % place.world:
-        raise TrainError(f"A batch of {recipe.batch} cannot be shared by {place.world} processes.")
-    settings = SampleConfig(
-        crop=recipe.crop,
-        network=recipe.network,
-        batch=recipe.batch // place.world,
-        soft=recipe.targets == "soft",
-        seed=recipe.seed,
-    )
-    count = recipe.iterations * recipe.accumulate * place.world
-    mine = range(first * recipe.accumulate * place.world + place.rank, count, place.world)
-    loader = DataLoader(
-        Batches(examples, settings, count=count),
-        batch_size=None,
-        sampler=mine,
-        num_workers=workers,
-        prefetch_factor=4 if workers else None,
-    )
-    gathered = []
-    for batch in loader:
-        gathered.append(batch)
-        if len(gathered) == recipe.accumulate:
-            yield gathered
-            gathered = []
-
-
-def _iterate(run: _Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:
+def _iterate(run: Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:
     """One step of the optimiser; returns what the log says of it."""
     recipe, place = plan.recipe, plan.place
     began = time.monotonic()
@@ -313,7 +220,7 @@ def _iterate(run: _Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> d
     }
 
 
-def _afterwards(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
+def _afterwards(run: Run, plan: _Plan, losses: dict[str, float]) -> None:
     """Logs an iteration; validates and saves where it is time to."""
     if plan.place.leads:
         train_log.append(plan.out, [{"iteration": run.iteration, **losses}])
@@ -325,11 +232,11 @@ def _afterwards(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
     plan.place.wait()
 
 
-def _is_time(run: _Run, plan: _Plan, every: int) -> bool:
+def _is_time(run: Run, plan: _Plan, every: int) -> bool:
     return run.iteration == plan.recipe.iterations or run.iteration % every == 0
 
 
-def _catch_up(run: _Run, plan: _Plan) -> None:
+def _catch_up(run: Run, plan: _Plan) -> None:
     """The validation that the run was stopped in."""
     due = plan.checks and run.checked < run.iteration and _is_time(run, plan, plan.recipe.validate_every)
     if due and plan.place.leads:
@@ -338,7 +245,7 @@ def _catch_up(run: _Run, plan: _Plan) -> None:
     plan.place.wait()
 
 
-def _check(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
+def _check(run: Run, plan: _Plan, losses: dict[str, float]) -> None:
     """Validates, and keeps the weights where they are the best so far."""
 
     def say(_done: int, _total: int, what: str) -> None:
@@ -353,19 +260,19 @@ def _check(run: _Run, plan: _Plan, losses: dict[str, float]) -> None:
         _save(run, plan, plan.out / BEST)
 
 
-def _finish(run: _Run, plan: _Plan) -> None:
+def _finish(run: Run, plan: _Plan) -> None:
     if (plan.out / BEST).exists():
         shutil.copyfile(plan.out / BEST, plan.out / FINAL)
     else:
         _save(run, plan, plan.out / FINAL)
 
 
-def _save(run: _Run, plan: _Plan, path: Path) -> None:
+def _save(run: Run, plan: _Plan, path: Path) -> None:
     figures = {"iteration": run.iteration, "validation": run.best}
     save_weights(path, run.kept.state_dict(), run.network.config, card={**plan.card, **figures})
 
 
-def _progress(run: _Run, plan: _Plan, losses: dict[str, float], what: str) -> Progress:
+def _progress(run: Run, plan: _Plan, losses: dict[str, float], what: str) -> Progress:
     return Progress(
         iteration=run.iteration,
         iterations=plan.recipe.iterations,

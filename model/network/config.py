@@ -10,6 +10,8 @@ Backbone = Literal["lite0", "r18", "r34", "r50"]
 PointRend = Literal["instance", "semantic", "off"]
 
 LEVELS = 5
+GROUPS = 32
+"""Of the heads' group norms: their channels are multiples of it."""
 FRAME = 1280
 """Photo pixels that the paper's images are wide: grids count cells along it, coordinates run over it."""
 

@@ -13,11 +13,8 @@ class FeaturePyramid(nn.Module):
 
     def __init__(self, inputs: Sequence[int], outputs: int) -> None:
         super().__init__()
-        self.lateral = nn.ModuleList(nn.Conv2d(channels, outputs, 1) for channels in inputs)
-        self.smooth = nn.ModuleList(nn.Conv2d(outputs, outputs, 3, padding=1) for _ in inputs)
-        for conv in (*self.lateral, *self.smooth):
-            nn.init.xavier_uniform_(conv.weight)
-            nn.init.zeros_(conv.bias)
+        self.lateral = nn.ModuleList(_started(nn.Conv2d(channels, outputs, 1)) for channels in inputs)
+        self.smooth = nn.ModuleList(_started(nn.Conv2d(outputs, outputs, 3, padding=1)) for _ in inputs)
 
     def forward(self, levels: Sequence[Tensor]) -> list[Tensor]:
         """Each (B, outputs, h / stride, w / stride)."""
@@ -26,3 +23,10 @@ class FeaturePyramid(nn.Module):
             sums[finer] = sums[finer] + F.interpolate(sums[finer + 1], size=sums[finer].shape[-2:])
         pyramid = [smooth(level) for smooth, level in zip(self.smooth, sums, strict=True)]
         return [*pyramid, F.max_pool2d(pyramid[-1], 1, stride=2)]
+
+
+def _started(conv: nn.Conv2d) -> nn.Conv2d:
+    nn.init.xavier_uniform_(conv.weight)
+    assert conv.bias is not None
+    nn.init.zeros_(conv.bias)
+    return conv

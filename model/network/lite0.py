@@ -14,7 +14,7 @@ from torch.nn import functional as F  # noqa: N812
 
 CHANNELS = (24, 40, 112, 320)
 """Of C2…C5, at strides 4, 8, 16 and 32."""
-MEAN, STD = (127 / 255,) * 3, (128 / 255,) * 3
+MEAN, STD = (127 / 255, 127 / 255, 127 / 255), (128 / 255, 128 / 255, 128 / 255)
 """Of the RGB values in [0, 1] that the ImageNet weights were trained on."""
 
 STAGES = (

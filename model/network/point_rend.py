@@ -77,9 +77,10 @@ class PointHead(nn.Module):
         self.detail = Detail(config.detail_channels) if config.detail_channels else None
         self.cue = nn.Linear(config.kernel_channels, CUE_CHANNELS)
         self.first = nn.Linear(CUE_CHANNELS + 3 + config.detail_channels, channels)
-        self.later = nn.ModuleList(nn.Linear(channels + 1, channels) for _ in range(LAYERS - 1))
+        later = [nn.Linear(channels + 1, channels) for _ in range(LAYERS - 1)]
+        self.later = nn.ModuleList(later)
         self.last = nn.Linear(channels + 1, 1)
-        for layer in (self.fine, self.semantic, self.first, *self.later):
+        for layer in (self.fine, self.semantic, self.first, *later):
             nn.init.kaiming_normal_(layer.weight, nonlinearity="relu")
         start_small(self.last)
 

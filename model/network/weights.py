@@ -1,7 +1,7 @@
 """Weights in files: safetensors of half precision, with what must be known to build the network again.
 
 A file is checked before it is believed: its header, the network it names, the shape of every tensor, and
-the digest over all of them. Nothing in it is ever run.
+the digest over all of it. Nothing in it is ever run.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Weights:
     network: PRSOLOv2
     """In evaluation mode, float32."""
     digest: str
-    """SHA-256 over all tensors: what predictions are traced to."""
+    """SHA-256 over the network and all tensors: what predictions are traced to."""
     card: dict[str, Any] = field(default_factory=dict)
     """How it was trained and what it reached."""
 
@@ -49,10 +49,11 @@ def save_weights(
     Floating tensors are stored in half precision; a value it cannot hold raises WeightsError.
     """
     stored = {key: _halved(key, value) for key, value in state.items()}
-    digest = digest_of(stored)
+    described = msgspec.json.encode(config).decode()
+    digest = digest_of(stored, described)
     metadata = {
         "format": FORMAT,
-        "network": msgspec.json.encode(config).decode(),
+        "network": described,
         "digest": digest,
         "card": msgspec.json.encode(card).decode(),
     }
@@ -81,7 +82,7 @@ def load_weights(path: Path) -> Weights:
         ) from error
     if metadata.get("format") != FORMAT:
         raise WeightsError(f"{path} holds no network of Fairyring's; give weights that fairyring train made.")
-    if metadata.get("digest") != digest_of(state):
+    if metadata.get("digest") != digest_of(state, metadata.get("network", "")):
         raise WeightsError(f"{path} has been changed or damaged; copy it again from where it came.")
     try:
         config = msgspec.json.decode(metadata["network"], type=NetworkConfig)
@@ -95,9 +96,9 @@ def load_weights(path: Path) -> Weights:
     return Weights(network=network.eval(), digest=metadata["digest"], card=card)
 
 
-def digest_of(state: Mapping[str, Tensor]) -> str:
-    """SHA-256 over names, shapes and values of tensors, in the order of the names."""
-    digest = hashlib.sha256()
+def digest_of(state: Mapping[str, Tensor], network: str) -> str:
+    """SHA-256 over the network's description, and names, shapes and values of tensors in the names' order."""
+    digest = hashlib.sha256(network.encode())
     for key in sorted(state):
         value = state[key].contiguous()
         digest.update(f"{key}:{value.dtype}:{tuple(value.shape)};".encode())

@@ -105,7 +105,7 @@ def test_masks_lie_where_the_photo_shows_their_caps(
     shown = made.photo[..., 0] > 127
     told = made.masks.any(0) if len(made.masks) else np.zeros_like(shown)
     # Of an edge through the crop, a ring of half pixels may differ.
-    assert (shown != told).sum() <= max(LEAST_VISIBLE, 0.06 * shown.sum())
+    assert (shown != told).sum() <= max(1.5 * LEAST_VISIBLE, 0.06 * shown.sum())
 
 
 def test_boxes_and_mass_centres_by_hand() -> None:

@@ -93,3 +93,16 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
         height, width = one.logits.shape
         np.testing.assert_array_equal(one.logits, whole[one.y : one.y + height, one.x : one.x + width])
         assert np.isfinite(whole).sum() == one.logits.size
+
+
+def test_what_is_left_of_a_second_view_of_a_cap_is_no_cap() -> None:
+    seen = np.full((10, 10), -1.0, np.float32)
+    seen[2:8, 2:8] = 4.0
+    wider = np.full((10, 10), -1.0, np.float32)
+    wider[1:8, 1:8] = 2.0
+    first, second = settle(
+        [Window(x=0, y=0, logits=seen), Window(x=0, y=0, logits=wider)], [0.9, 0.6], width=10, height=10
+    )
+    # Of its 49 pixels the second would keep the 13 of an edge.
+    assert (first.logits > 0).sum() == 36
+    assert not (second.logits > 0).any()

@@ -73,15 +73,16 @@ def test_channels_last_weights_are_stored_as_others(saved: Path, tmp_path: Path)
     assert (tmp_path / "turned.safetensors").stat().st_size == saved.stat().st_size
 
 
-def test_the_digest_is_of_names_shapes_and_values_alone() -> None:
+def test_the_digest_is_of_the_network_and_of_names_shapes_and_values() -> None:
     state = {"b": torch.ones(2, 3), "a": torch.arange(4)}
-    digest = digest_of(state)
-    assert digest == digest_of(dict(reversed(state.items())))
-    assert digest == digest_of(state | {"b": torch.ones(3, 2).T})
-    assert digest != digest_of(state | {"b": torch.ones(3, 2)})
-    assert digest != digest_of(state | {"a": torch.tensor([0, 1, 2, 4])})
-    assert digest != digest_of({"b": state["b"], "c": state["a"]})
-    assert digest != digest_of(state | {"b": torch.ones(2, 3, dtype=torch.float64)})
+    digest = digest_of(state, "n")
+    assert digest == digest_of(dict(reversed(state.items())), "n")
+    assert digest == digest_of(state | {"b": torch.ones(3, 2).T}, "n")
+    assert digest != digest_of(state | {"b": torch.ones(3, 2)}, "n")
+    assert digest != digest_of(state | {"a": torch.tensor([0, 1, 2, 4])}, "n")
+    assert digest != digest_of({"b": state["b"], "c": state["a"]}, "n")
+    assert digest != digest_of(state | {"b": torch.ones(2, 3, dtype=torch.float64)}, "n")
+    assert digest != digest_of(state, "m")
 
 
 def test_a_changed_byte_among_the_values_is_noticed(saved: Path, tmp_path: Path) -> None:
@@ -168,7 +169,10 @@ def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
 def test_weights_of_another_network_than_the_file_says_are_refused(
     saved: Path, tmp_path: Path, told: str | None
 ) -> None:
-    path = rewritten(saved, tmp_path / "other.safetensors", network=told)
+    with safe_open(saved, framework="pt") as file:
+        state = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118
+    digest = digest_of(state, told or "")
+    path = rewritten(saved, tmp_path / "other.safetensors", network=told, digest=digest)
     with pytest.raises(WeightsError, match="another network than it says"):
         load_weights(path)
 
@@ -200,3 +204,12 @@ def test_the_header_names_the_network(saved: Path) -> None:
     told = msgspec.json.decode(metadata_of(saved)["network"])
     assert told["fpn_channels"] == 32
     assert told["backbone"] == "lite0"
+
+
+def test_a_network_described_otherwise_than_it_was_saved_is_noticed(saved: Path, tmp_path: Path) -> None:
+    content = saved.read_bytes()
+    assert b'reduction\\":1' in content
+    changed = tmp_path / "changed.safetensors"
+    changed.write_bytes(content.replace(b'reduction\\":1', b'reduction\\":2'))
+    with pytest.raises(WeightsError, match="changed or damaged"):
+        load_weights(changed)
