@@ -6,6 +6,7 @@ from typing import Any
 
 from sqlalchemy import Connection, exists, select
 
+from storage.offering import offered
 from storage.records import Annotation, Document, Prediction, Run
 from storage.rows import (
     SELECT_ANNOTATIONS,
@@ -22,16 +23,20 @@ from storage.schema import annotation, image, prediction, run
 
 
 def load_document(connection: Connection, image_id: int) -> Document:
-    """Everything the editor shows: live annotations, and predictions that nobody has deleted.
+    """Everything the editor shows: live annotations, and predictions that are open or became one of them.
+
+    Predictions that somebody deleted, or that lie on a cap people have labelled already, are left out.
 
     Raises:
         StoreError: the project has no such image.
     """
     row = require_image(connection, image_id)
+    photo, annotations = image_of(row), load_annotations(connection, image_id)
+    predictions = _predictions(connection, _of_latest_run(image_id).where(~_rejected()))
     return Document(
-        image=image_of(row),
-        annotations=load_annotations(connection, image_id),
-        predictions=_predictions(connection, _of_latest_run(image_id).where(~_rejected())),
+        image=photo,
+        annotations=annotations,
+        predictions=offered(photo, annotations, predictions),
         run=None if row.run is None else load_run(connection, row.run),
     )
 

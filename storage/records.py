@@ -142,5 +142,5 @@ class Document(Struct, frozen=True, kw_only=True):
     annotations: list[Annotation]
     """Live ones only."""
     predictions: list[Prediction]
-    """Of the latest run that saw this image."""
+    """Of the latest run that saw this image; without those that lie on annotations made otherwise."""
     run: Run | None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sqlalchemy import Connection
 
@@ -18,7 +18,7 @@ from app.session import Session
 from app.workspace import Workspace
 from model.evaluate.centres import Pair
 from model.geometry import Circle, Polygon
-from storage.documents import load_prediction, load_run
+from storage.documents import load_prediction, load_predictions, load_run
 from storage.journal import Entry, history
 from storage.records import Annotation, Mark, Prediction, Run, Shape
 
@@ -70,13 +70,15 @@ async def _background(workspace: Workspace, scene: Scene, annotation: Annotation
     started_from = annotation.cap.prediction
 
     def gather(connection: Connection) -> Background:
+        # A cap is compared with all that was said, also with what is not offered where the cap lies.
+        said = replace(scene, predictions=load_predictions(connection, scene.image.id))
         prediction = load_prediction(connection, started_from) if started_from is not None else None
         return Background(
             entries=history(connection, annotation.uid),
             prediction=prediction,
             run=load_run(connection, prediction.run) if prediction else None,
             whole=whole_of(annotation.uid, annotation.cap, scene),
-            pair=compare_cap(scene, annotation.uid),
+            pair=compare_cap(said, annotation.uid),
         )
 
     return await workspace.read(gather)
