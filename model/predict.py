@@ -19,7 +19,7 @@ from model.network.pr_solov2 import Outputs, PRSOLOv2
 from model.network.refine import draw
 from model.outlines import outline_of_logits
 from model.raster import Rle, iou_matrix, rle_of_outline
-from model.settle import Window, settle
+from model.settle import Window, distinct, settle
 from model.tiles import Tile, tiles_of
 
 SLACK = 8.0
@@ -128,7 +128,10 @@ class Predictor:
         )
         scores = instances.scores.tolist()
         windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
-        settled = settle(windows, scores, width=tile.width, height=tile.height)
+        size = {"width": tile.width, "height": tile.height}
+        own = distinct(windows, scores, **size)
+        scores = [scores[nth] for nth in own]
+        settled = settle([windows[nth] for nth in own], scores, **size)
         for score, window in zip(scores, settled, strict=True):
             outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
             if not outline:

@@ -1,4 +1,4 @@
-"""Whose pixel it is where two predicted caps claim the same: visible masks do not overlap."""
+"""Visible masks do not overlap: which instances are caps of their own, whose a pixel is that two claim."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 CONFIDENT = 0.3
 """Score from which an instance takes pixels from others."""
-LEAST_LEFT = 0.3
-"""Share of its pixels that an instance must keep: what is left of a second view of a cap is a thin ring."""
+MOST_TAKEN = 0.5
+"""Share of an instance's pixels in better ones above which it is another view of the same cap."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,11 +23,29 @@ class Window:
     logits: NDArray[np.float32]
 
 
+def distinct(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[int]:
+    """The places of the instances that do not lie, for the most part, on better and confident ones.
+
+    ``scores`` must fall. An instance without a pixel in the photo is left out, too.
+    """
+    taken = np.zeros((height, width), bool)
+    kept = []
+    for nth, (window, score) in enumerate(zip(windows, scores, strict=True)):
+        inside = _cut(window, width=width, height=height)
+        mask, place = inside.logits > 0, _place(inside)
+        area = np.count_nonzero(mask)
+        if area == 0 or np.count_nonzero(mask & taken[place]) > MOST_TAKEN * area:
+            continue
+        kept.append(nth)
+        if score >= CONFIDENT:
+            taken[place] |= mask
+    return kept
+
+
 def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[Window]:
     """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
 
-    Where two caps touch, the edge then runs where they are equally sure. Of an instance that loses most of
-    its pixels nothing stays above 0.
+    Where two caps touch, the edge then runs where they are equally sure.
     """
     inside = [_cut(window, width=width, height=height) for window in windows]
     first, second = np.zeros((2, height, width), np.float32)
@@ -39,10 +57,7 @@ def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, he
     for nth, window in enumerate(inside):
         place = _place(window)
         others = np.where(owner[place] == nth, second[place], first[place])
-        logits = window.logits - others
-        if np.count_nonzero(logits > 0) < LEAST_LEFT * np.count_nonzero(window.logits > 0):
-            logits = np.minimum(logits, 0)
-        settled.append(replace(window, logits=logits))
+        settled.append(replace(window, logits=window.logits - others))
     return settled
 
 

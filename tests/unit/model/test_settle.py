@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.settle import CONFIDENT, Window, settle
+from model.settle import CONFIDENT, Window, distinct, settle
 
 
 def window(x: int, y: int, values: list[list[float]]) -> Window:
@@ -95,14 +95,30 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
         assert np.isfinite(whole).sum() == one.logits.size
 
 
-def test_what_is_left_of_a_second_view_of_a_cap_is_no_cap() -> None:
-    seen = np.full((10, 10), -1.0, np.float32)
-    seen[2:8, 2:8] = 4.0
-    wider = np.full((10, 10), -1.0, np.float32)
-    wider[1:8, 1:8] = 2.0
-    first, second = settle(
-        [Window(x=0, y=0, logits=seen), Window(x=0, y=0, logits=wider)], [0.9, 0.6], width=10, height=10
-    )
-    # Of its 49 pixels the second would keep the 13 of an edge.
-    assert (first.logits > 0).sum() == 36
-    assert not (second.logits > 0).any()
+def filled(x: int, y: int, side: int) -> Window:
+    """A square cap with a margin of a pixel around it."""
+    logits = np.full((side + 2, side + 2), -1.0, np.float32)
+    logits[1:-1, 1:-1] = 3.0
+    return Window(x=x - 1, y=y - 1, logits=logits)
+
+
+def test_a_second_view_of_a_cap_is_no_cap_of_its_own() -> None:
+    caps = [filled(2, 2, 10), filled(3, 2, 10), filled(10, 2, 10)]
+    # The second shares 90 of its 100 pixels with the first, the third 20.
+    assert distinct(caps, [0.9, 0.8, 0.7], width=40, height=20) == [0, 2]
+
+
+def test_half_of_a_cap_may_be_claimed_by_others_and_no_more() -> None:
+    for shift, kept in ((5, [0, 1]), (4, [0])):
+        caps = [filled(2, 2, 10), filled(2 + shift, 2, 10)]
+        assert distinct(caps, [0.9, 0.8], width=40, height=20) == kept
+
+
+def test_the_unsure_take_no_caps_from_others() -> None:
+    unsure = CONFIDENT - 0.01
+    caps = [filled(2, 2, 10), filled(2, 2, 10)]
+    assert distinct(caps, [unsure, unsure], width=40, height=20) == [0, 1]
+
+
+def test_an_instance_outside_of_the_photo_is_no_cap() -> None:
+    assert distinct([filled(50, 2, 10), filled(2, 2, 10)], [0.9, 0.8], width=40, height=20) == [1]
