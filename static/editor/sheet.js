@@ -12,10 +12,11 @@ export class Sheet {
   canvas = document.createElement("canvas");
   #screen;
   #drawn = drawable();
-  #copy = drawable();
   /** @type {Size} */
   #size = { width: 0, height: 0 };
   #fresh = false;
+  /** Drawn elsewhere, to be shown as it is. @type {ImageBitmap | null} */
+  #bitmap = null;
 
   /** @param {HTMLElement} host */
   constructor(host) {
@@ -28,8 +29,20 @@ export class Sheet {
 
   /** To draw on; `show` brings it to the screen. */
   get context() {
+    if (this.#bitmap) this.#copy(this.#bitmap);
+    else if (!this.#fresh) this.#copy(this.canvas);
+    this.#bitmap?.close();
+    this.#bitmap = null;
     this.#fresh = true;
     return this.#drawn;
+  }
+
+  /** What is shown is gone from the canvas that it was drawn on. @type {(picture: CanvasImageSource) => void} */
+  #copy(picture) {
+    this.#drawn.save();
+    this.#drawn.resetTransform();
+    this.#drawn.drawImage(picture, 0, 0);
+    this.#drawn.restore();
   }
 
   /**
@@ -39,21 +52,30 @@ export class Sheet {
    * @param {number} ratio  device pixels per CSS pixel
    */
   cut(size, ratio) {
+    const { canvas } = this.#drawn;
+    canvas.width = Math.round(size.width * ratio);
+    canvas.height = Math.round(size.height * ratio);
     this.#size = size;
-    for (const { canvas } of [this.#drawn, this.#copy]) {
-      canvas.width = Math.round(size.width * ratio);
-      canvas.height = Math.round(size.height * ratio);
-    }
-    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#fresh = true;
+    this.#bitmap?.close();
+    this.#bitmap = null;
+    this.#drawn.setTransform(ratio, 0, 0, ratio, 0, 0);
+  }
+
+  /** A picture drawn elsewhere, as large as the sheet; the sheet has it from now on. @type {(bitmap: ImageBitmap) => void} */
+  put(bitmap) {
+    this.#bitmap = bitmap;
   }
 
   /** Brings to the screen what has been drawn since the last time. */
   show() {
     if (!this.#fresh) return;
     this.#fresh = false;
-    const { canvas } = this.#copy;
-    this.#copy.drawImage(this.#drawn.canvas, 0, 0);
-    this.#screen.transferFromImageBitmap(canvas.transferToImageBitmap());
+    const { canvas } = this.#drawn;
+    if (this.canvas.width !== canvas.width) this.canvas.width = canvas.width;
+    if (this.canvas.height !== canvas.height) this.canvas.height = canvas.height;
+    this.#screen.transferFromImageBitmap(this.#bitmap ?? canvas.transferToImageBitmap());
+    this.#bitmap = null;
     this.canvas.style.width = `${this.#size.width}px`;
     this.canvas.style.height = `${this.#size.height}px`;
   }

@@ -103,7 +103,8 @@ export class Surface {
     const { order, paint } = this.#artist;
     const frame = { view: ownView(view), ...sheetSize(this.#size), ratio: this.#ratio };
     if (!order) {
-      this.#swap(view, (context) => paint(context, frame.view, visibleBounds(frame.view, frame)));
+      this.#cut(view);
+      paint(this.#sheet.context, frame.view, visibleBounds(frame.view, frame));
     } else if (!this.#job) {
       /** @type {{repairs: Bounds[]}} */
       const job = { repairs: [] };
@@ -116,21 +117,16 @@ export class Surface {
   #take(job, view, bitmap) {
     if (this.#job === job) {
       this.#job = null;
-      this.#swap(view, (context) => {
-        context.setTransform(1, 0, 0, 1, 0, 0);
-        context.drawImage(bitmap, 0, 0);
-        context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
-      });
+      this.#cut(view);
+      this.#sheet.put(bitmap);
       this.repair(job.repairs);
       this.#artist.ready();
-    }
-    bitmap.close();
+    } else bitmap.close();
   }
 
-  /** @type {(view: View, draw: (context: Context) => void) => void} */
-  #swap(view, draw) {
+  /** @type {(view: View) => void} */
+  #cut(view) {
     this.#sheet.cut(sheetSize(this.#size), this.#ratio);
-    draw(this.#sheet.context);
     this.#drawn = view;
     this.#stale = false;
   }

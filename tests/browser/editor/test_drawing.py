@@ -5,14 +5,14 @@ from __future__ import annotations
 SHEET = """
   const host = document.createElement('div');
   const sheet = new m.Sheet(host);
-  const red = () => {
-    const seen = new OffscreenCanvas(20, 10).getContext('2d');
-    seen.drawImage(sheet.canvas, 0, 0);
-    return [...seen.getImageData(4, 4, 1, 1).data];
+  const seen = (...where) => {
+    const copy = new OffscreenCanvas(20, 10).getContext('2d');
+    copy.drawImage(sheet.canvas, 0, 0);
+    return where.map((x) => copy.getImageData(x, 4, 1, 1).data[0]);
   };
   const draw = (x) => {
     sheet.context.fillStyle = '#f00';
-    sheet.context.fillRect(x, 0, 5, 5);
+    sheet.context.fillRect(x, 0, 3, 5);
   };
 """
 
@@ -24,13 +24,13 @@ def test_a_sheet_is_on_the_screen_once_it_is_shown_and_keeps_what_was_drawn(call
       sheet.cut({width: 10, height: 5}, 2);
       draw(0);
       sheet.show();
-      const once = red();
-      draw(5);
+      const once = seen(5, 6, 12, 18);
+      draw(6);
       sheet.show();
-      return [once, red(), sheet.canvas.style.width, sheet.canvas.style.height];
+      return [once, seen(5, 6, 12, 18), sheet.canvas.style.width, sheet.canvas.style.height];
     """
     )
-    assert call("sheet", body) == [[255, 0, 0, 255], [255, 0, 0, 255], "10px", "5px"]
+    assert call("sheet", body) == [[255, 0, 0, 0], [255, 0, 255, 0], "10px", "5px"]
 
 
 def test_the_screen_keeps_the_old_sheet_until_the_new_one_is_shown(call) -> None:
@@ -41,12 +41,37 @@ def test_the_screen_keeps_the_old_sheet_until_the_new_one_is_shown(call) -> None
       draw(0);
       sheet.show();
       sheet.cut({width: 10, height: 5}, 2);
-      const before = red();
+      const before = seen(5);
       sheet.show();
-      return [before, red()];
+      return [before, seen(5)];
     """
     )
-    assert call("sheet", body) == [[255, 0, 0, 255], [0, 0, 0, 0]]
+    assert call("sheet", body) == [[255], [0]]
+
+
+def test_a_picture_drawn_elsewhere_is_shown_and_can_be_drawn_on(call) -> None:
+    body = (
+        SHEET
+        + """
+      const made = new OffscreenCanvas(20, 10);
+      const put = () => {
+        sheet.cut({width: 10, height: 5}, 2);
+        Object.assign(made.getContext('2d'), {fillStyle: '#f00'}).fillRect(0, 0, 6, 10);
+        sheet.put(made.transferToImageBitmap());
+      };
+      put();
+      sheet.show();
+      const shown = seen(5, 12);
+      draw(6);
+      sheet.show();
+      const after = seen(5, 12);
+      put();
+      draw(6);
+      sheet.show();
+      return [shown, after, seen(5, 12)];
+    """
+    )
+    assert call("sheet", body) == [[255, 0], [255, 255], [255, 255]]
 
 
 def test_a_glass_is_there_only_while_something_is_drawn_on_it(call) -> None:
