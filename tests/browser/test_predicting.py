@@ -8,9 +8,11 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from app.bench.serving import Server, served
 from app.bench.tab import Tab
+from app.cli import app
 from storage.documents import load_document
 from storage.images import ImageFilter, list_ids
 from storage.importing import import_paths
@@ -71,3 +73,25 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     assert 2 <= len(predicted) < PHOTOS
     assert {document.run.id for document in predicted if document.run} == {1}
     assert len(documents[0].annotations) == len(accepted)
+
+
+def test_what_was_accepted_is_not_offered_again_by_a_later_run(
+    project: Path, server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server)
+    tab.page.get_by_role("tab", name="Jobs").click()
+    tab.page.get_by_role("button", name="Predict this image").click()
+    tab.wait_for("window.fairyring.state.predictions.length > 0")
+    seen = tab.state("predictions")
+    tab.press("Shift+a")
+    tab.saved()
+    tab.page.get_by_text("1 image predicted").first.wait_for()
+
+    done = CliRunner().invoke(app, ["predict", str(project), "--images", "bed_0.png", "--redo"])
+    assert f"{len(seen)} caps seen" in done.stderr
+    tab.page.reload()
+    tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    assert tab.state("predictions") == []
+    tab.press("Shift+a")
+    tab.saved()
+    assert len(tab.state("shapes")) == len(seen)

@@ -14,7 +14,7 @@ from click.testing import Result
 from typer.testing import CliRunner
 
 from app.cli import app
-from app.gateway.messages import Edits, Notice, Predicted, Show
+from app.gateway.messages import Edits, Notice, Predicted, Select, Show
 from app.predicting import Network, network_of, predict_images
 from app.weights import weights_of
 from model.errors import FairyringError
@@ -138,6 +138,33 @@ def test_annotations_are_never_touched(port: int, project: Project, network: Net
     predict_images(project, network, ids)
     with project.read() as connection:
         assert load_annotations(connection, ids[0]) == before
+
+
+def test_what_people_have_labelled_is_not_offered_again_but_still_compared(
+    serve: Callable[..., int], project: Project, ids: list[int]
+) -> None:
+    own = project.folder / "weights" / "own.safetensors"
+    write_weights(own)
+    # Other settings that see the same, so that the button makes a run of its own.
+    predict_images(project, network_of(own, device="cpu", least_score=0.300001), ids[:1])
+    with Tab(serve(), image=ids[0]) as tab:
+        first = tab.expect(Show).document.predictions
+        accepted = [
+            new_cap(ids[0], uid=f"cap-{p.id}", edit=f"e{p.id}", visible=p.visible, prediction=p.id)
+            for p in first
+        ]
+        tab.edit(*accepted)
+        tab.panel.set("Predict this image", True)
+        assert tab.expect(Predicted).predictions == []
+        tab.expect(Notice)
+        tab.send(Select(annotation=accepted[0].annotation))
+        until(lambda: f'title="{accepted[0].annotation}"' in tab.panel.html, "the inspector")
+        assert "none matches this cap" not in tab.panel.html
+    with project.read() as connection:
+        assert load_document(connection, ids[0]).predictions == []
+        again = load_predictions(connection, ids[0])
+    assert len(again) == len(first)
+    assert {p.run for p in again}.isdisjoint({p.run for p in first})
 
 
 def test_a_photo_that_cannot_be_read_is_named_and_the_others_are_predicted(
