@@ -1,11 +1,11 @@
-"""What a network is trained on: labels of a project or of a COCO file, and a record of which they were."""
+"""What a network is trained on: labels of a project or of COCO files, and a record of which they were."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from sqlalchemy import Connection
 
@@ -22,6 +22,8 @@ from storage.intake import Intake, take_in
 from storage.project import SETTINGS, Project, open_project
 from storage.records import Annotation, Cap, Image
 from storage.sources import Sources, gather
+
+Item = TypeVar("Item")
 
 FEWEST_TO_DIVIDE = 4
 """Images from which some are kept for validation."""
@@ -40,14 +42,24 @@ class Labels:
     """Which images, and which revision of every cap, for ``labels.json``."""
 
 
-def labels_at(path: Path, *, lenient: bool = False, progress: Progress = lambda *_: None) -> Labels:
-    """The labels of a project's folder or a COCO file. Raises FairyringError."""
-    if (path / SETTINGS).exists():
-        with open_project(path) as project:
+def labels_at(
+    paths: Sequence[Path],
+    *,
+    lenient: bool = False,
+    in_turn: bool = False,
+    progress: Progress = lambda *_: None,
+) -> Labels:
+    """The labels of a project's folder, or of one COCO file or several. Raises FairyringError."""
+    projects = [path for path in paths if (path / SETTINGS).exists()]
+    if projects and len(paths) > 1:
+        raise FairyringError(f"{projects[0]} is a project; give it alone, or COCO files only.")
+    if projects:
+        with open_project(projects[0]) as project:
             return labels_of_project(project, progress=progress)
-    if path.is_dir():
-        raise FairyringError(f"{path} is no project; give a project's folder or a COCO file.")
-    return labels_of_coco(path, lenient=lenient, progress=progress)
+    for path in paths:
+        if path.is_dir():
+            raise FairyringError(f"{path} is no project; give a project's folder or a COCO file.")
+    return labels_of_coco(paths, lenient=lenient, in_turn=in_turn, progress=progress)
 
 
 def labels_of_project(project: Project, *, progress: Progress = lambda *_: None) -> Labels:
@@ -73,11 +85,29 @@ def labels_of_project(project: Project, *, progress: Progress = lambda *_: None)
     )
 
 
-def labels_of_coco(path: Path, *, lenient: bool = False, progress: Progress = lambda *_: None) -> Labels:
-    """All of a COCO file, its photos found as an import finds them: beside it, or in ``images/`` beside it.
+def labels_of_coco(
+    paths: Sequence[Path],
+    *,
+    lenient: bool = False,
+    in_turn: bool = False,
+    progress: Progress = lambda *_: None,
+) -> Labels:
+    """All of COCO files; photos are found as an import finds them, beside each or in ``images/`` beside it.
 
-    What an import would report ends it, unless ``lenient`` leaves such items out. Raises StoreError.
+    Two files may each have a photo of one name. ``in_turn`` takes one image of each file, then the next of
+    each, so that the first few are of all of them. What an import would report ends it, unless ``lenient``
+    leaves such items out. Raises StoreError.
     """
+    files = [_of_file(path, lenient=lenient, progress=progress) for path in paths]
+    joined = _in_turn if in_turn else _one_after_the_other
+    return Labels(
+        examples=joined([labels.examples for labels in files]),
+        splits=joined([labels.splits for labels in files]),
+        record={"files": [labels.record for labels in files]},
+    )
+
+
+def _of_file(path: Path, *, lenient: bool, progress: Progress) -> Labels:
     sources = gather([path], kind="coco")
     intake = take_in(sources, known={}, light=None, form=None, progress=progress)
     if intake.problems and not (lenient and intake.seen):
@@ -85,6 +115,16 @@ def labels_of_coco(path: Path, *, lenient: bool = False, progress: Progress = la
         more = f" ({others} more; --lenient leaves such items out)" if others else " (or give --lenient)"
         raise StoreError(f"{intake.problems[0]}{more}")
     return _of_intake(sources, intake)
+
+
+def _one_after_the_other(lists: Sequence[list[Item]]) -> list[Item]:
+    return [item for items in lists for item in items]
+
+
+def _in_turn(lists: Sequence[list[Item]]) -> list[Item]:
+    """One of each list, then the next of each, until all have run out."""
+    longest = max(map(len, lists), default=0)
+    return [items[place] for place in range(longest) for items in lists if place < len(items)]
 
 
 def divided(labels: Labels, validation: Labels | None, *, seed: int) -> tuple[list[Example], list[Example]]:
@@ -100,7 +140,8 @@ def divided(labels: Labels, validation: Labels | None, *, seed: int) -> tuple[li
     checked = [example for example, split in pairs if split in VALIDATION]
     if checked or len(learnt) < FEWEST_TO_DIVIDE:
         return learnt, checked
-    sides = split_by_source([example.path.name for example in learnt], seed=seed)
+    # By the whole path: photos of two data sets may have one name.
+    sides = split_by_source([example.path.as_posix() for example in learnt], seed=seed)
     return (
         [example for example, side in zip(learnt, sides, strict=True) if side == "train"],
         [example for example, side in zip(learnt, sides, strict=True) if side == "val"],

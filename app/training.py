@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -43,8 +44,8 @@ class Asked:
     seed: int | None = None
     weights: str | None = None
     """A file to start from, or ``imagenet``."""
-    val: Path | None = None
-    """A COCO file to validate on."""
+    val: Sequence[Path] = ()
+    """COCO files to validate on."""
     resume: bool = False
     lenient: bool = False
     """Labels that cannot be used are left out."""
@@ -69,22 +70,25 @@ class Start:
 
 
 def train_as_asked(
-    source: Path, out: Path, asked: Asked, *, device: str, workers: int | None, progress: Progress
+    sources: Sequence[Path], out: Path, asked: Asked, *, device: str, workers: int | None, progress: Progress
 ) -> TrainResult:
-    """Trains on the labels of a project or a COCO file; everything is kept in the folder ``out``.
+    """Trains on the labels of a project or of COCO files; everything is kept in the folder ``out``.
 
     A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
     for. Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
     """
     on = device_of(device)
-    labels = labels_at(source, lenient=asked.lenient, progress=progress)
-    validation = labels_at(asked.val, lenient=asked.lenient, progress=progress) if asked.val else None
+    labels = labels_at(sources, lenient=asked.lenient, progress=progress)
+    # Only so many images are validated on, and they are to be of every file.
+    validation = (
+        labels_at(asked.val, lenient=asked.lenient, in_turn=True, progress=progress) if asked.val else None
+    )
     record = record_of(labels, validation)
     if asked.resume:
         start = continuation_of(out, asked.recipe, record)
     else:
         recipe = asked.recipe or Recipe()
-        usual = shipped_for(recipe) if (source / SETTINGS).exists() else None
+        usual = shipped_for(recipe) if (sources[0] / SETTINGS).exists() else None
         start = start_of(recipe, asked.weights or usual, record)
     learnt, checks = divided(labels, validation, seed=start.recipe.seed)
     return train(

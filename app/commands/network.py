@@ -13,13 +13,14 @@ import typer
 
 from app.commands.progress import shown_on_stderr
 from app.commands.project import AsJson, ProjectFolder
+from app.commands.stopping import stopped_by_sigterm
 from model.errors import FairyringError
 
 if TYPE_CHECKING:
     from storage.project import Project
 
 INTERRUPTED = 130
-"""Exit code after Ctrl+C, as shells have it."""
+"""Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""
 
 
 class Device(StrEnum):
@@ -30,12 +31,12 @@ class Device(StrEnum):
     cuda = "cuda"
 
 
-LABELS_HELP = "A project's folder, or a COCO file with its photos beside it or in images/."
+LABELS_HELP = "A project's folder, or COCO files, each with its photos beside it or in images/."
 OnDevice = Annotated[Device, typer.Option(help="auto takes a GPU where there is one.")]
 
 
 def train(
-    source: Annotated[Path, typer.Argument(metavar="PROJECT|COCO.json", help=LABELS_HELP)],
+    sources: Annotated[list[Path], typer.Argument(metavar="PROJECT|COCO.json...", help=LABELS_HELP)],
     *,
     out: Annotated[Path, typer.Option(help="A new folder for weights, log and curves.")],
     config: Annotated[
@@ -50,7 +51,8 @@ def train(
         ),
     ] = None,
     val: Annotated[
-        Path | None, typer.Option(metavar="COCO.json", help="Validate on these; else on a part.")
+        list[Path] | None,
+        typer.Option(metavar="COCO.json", help="Validate on these (repeat for more); else on a part."),
     ] = None,
     iterations: Annotated[int | None, typer.Option(min=1, help="A tenth of them, at most, warm up.")] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="The same seed gives the same weights.")] = None,
@@ -64,16 +66,16 @@ def train(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Train the network on a project's approved images (else its annotated ones), or on a COCO file.
+    """Train the network on a project's approved images (else its annotated ones), or on COCO files.
 
     Validated is on --val, else on images whose split is val, else on three tenths of four images and more.
-    After Ctrl+C (exit code 130) or a crash, --resume goes on. Several GPUs: start it with torchrun.
+    After Ctrl+C or SIGTERM (exit code 130), or a crash, --resume goes on. Several GPUs: start it by torchrun.
 
     Example: `fairyring train beds --out run --iterations 500`
     """
     leads = int(os.environ.get("RANK", "0")) == 0
     try:
-        with shown_on_stderr(silent=not leads) as progress:
+        with shown_on_stderr(silent=not leads) as shown, stopped_by_sigterm(shown) as progress:
             # Torch and all takes a while to load.
             from app.training import Asked, train_as_asked
 
@@ -82,11 +84,11 @@ def train(
                 iterations=iterations,
                 seed=seed,
                 weights=weights,
-                val=val,
+                val=val or (),
                 resume=resume,
                 lenient=lenient,
             )
-            result = train_as_asked(source, out, asked, device=device, workers=workers, progress=progress)
+            result = train_as_asked(sources, out, asked, device=device, workers=workers, progress=progress)
     except KeyboardInterrupt:
         if leads:
             typer.echo(_after_interruption(out), err=True)
@@ -131,8 +133,8 @@ def predict(
 ) -> None:
     """Predict the caps of a project's photos, with their whole outlines and centres.
 
-    Every image is stored as it comes: after Ctrl+C (exit code 130), the same command goes on. Annotations are
-    never touched. A photo that cannot be read is reported and passed over.
+    Every image is stored as it comes: after Ctrl+C or SIGTERM (exit code 130), the same command goes on.
+    Annotations are never touched. A photo that cannot be read is reported and passed over.
 
     Example: `fairyring predict beds --images "bed_top_*" --weights run/weights.safetensors`
     """
@@ -147,7 +149,7 @@ def predict(
         network = network_of(weights or require_weights(project), device=device, least_score=least_score)
         stored: list[int] = []
         try:
-            with shown_on_stderr() as progress:
+            with shown_on_stderr() as shown, stopped_by_sigterm(shown) as progress:
                 outcome = predict_images(
                     project, network, wanted, redo=redo, progress=progress, predicted=stored.append
                 )

@@ -37,9 +37,9 @@ Kind = TypeVar("Kind")
 SQUARE = [[20.0, 20.0, 60.0, 20.0, 60.0, 60.0, 20.0, 60.0]]
 
 
-def until(condition: Callable[[], Any], what: str = "") -> Any:
+def until(condition: Callable[[], Any], what: str = "", *, within_s: float = DEADLINE_S) -> Any:
     """Waits until the condition holds, and returns what made it so."""
-    deadline = time.monotonic() + DEADLINE_S
+    deadline = time.monotonic() + within_s
     while time.monotonic() < deadline:
         if found := condition():
             return found

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
 from hashlib import sha256
 from pathlib import Path
 
@@ -23,7 +27,7 @@ from storage.predictions import list_runs
 from storage.project import Project
 from tests.unit.app.conftest import circle
 from tests.unit.app.sighted import RECIPE, SMALL, write_weights
-from tests.unit.app.tab import new_cap
+from tests.unit.app.tab import new_cap, until
 
 
 @pytest.fixture
@@ -111,13 +115,71 @@ def test_a_coco_file_is_learnt_from_with_its_photos_beside_it_and_in_images(
     export_coco(labelled, tmp_path / "coco")
     file = tmp_path / "coco" / "instances.json"
     (tmp_path / "coco" / "images" / "bed_1.jpg").rename(tmp_path / "coco" / "bed_1.jpg")
-    labels = labels_at(file)
+    labels = labels_at([file])
     assert [example.path for example in labels.examples] == [
         tmp_path / "coco" / "bed_1.jpg",
         tmp_path / "coco" / "images" / "bed_2.jpg",
     ]
     assert [len(example.caps) for example in labels.examples] == [1, 1]
-    assert labels.record["sha256"] == sha256(file.read_bytes()).hexdigest()
+    (record,) = labels.record["files"]
+    assert record["sha256"] == sha256(file.read_bytes()).hexdigest()
+
+
+def test_several_files_are_learnt_from_and_validated_on_in_turn_though_their_photos_share_names(
+    labelled: Project, recipe: Path, tmp_path: Path
+) -> None:
+    sets = [tmp_path / name for name in ("first", "second")]
+    for folder in sets:
+        export_coco(labelled, folder)
+    first, second = files = [folder / "instances.json" for folder in sets]
+    only = json.loads(second.read_text())
+    only["images"], only["annotations"] = only["images"][:1], only["annotations"][:1]
+    second.write_text(json.dumps(only))
+    one, two, three = (
+        sets[0] / "images" / "bed_1.jpg",
+        sets[0] / "images" / "bed_2.jpg",
+        sets[1] / "images" / "bed_1.jpg",
+    )
+    assert [example.path for example in labels_at(files).examples] == [one, two, three]
+    assert [example.path for example in labels_at(files, in_turn=True).examples] == [one, three, two]
+
+    out = tmp_path / "run"
+    done = train(
+        first, out, second, "--val", first, "--val", second, "--config", recipe, "--weights", "imagenet"
+    )
+    assert done.exit_code == 0, done.output
+    record = json.loads((out / "labels.json").read_bytes())
+    digests = [sha256(file.read_bytes()).hexdigest() for file in files]
+    assert [one["sha256"] for one in record["files"]] == digests
+    assert [one["sha256"] for one in record["validation"]["files"]] == digests
+    assert load_weights(out / "weights.safetensors").card["images"] == 3
+    assert "alone" in sentence(train(labelled.folder, tmp_path / "other", first))
+
+
+@pytest.mark.parametrize("to_all", [False, True])
+def test_a_training_that_is_terminated_keeps_what_it_has_and_says_how_to_go_on(
+    labelled: Project, recipe: Path, tmp_path: Path, to_all: bool
+) -> None:
+    recipe.write_text(RECIPE.replace("iterations = 3", "iterations = 5000"))
+    out = tmp_path / "run"
+    command = [sys.executable, "-c", "from app.cli import main; main()", "train", str(labelled.folder)]
+    options = ["--out", str(out), "--config", str(recipe), "--device", "cpu", "--workers", "1"]
+    running = subprocess.Popen(
+        [*command, *options], stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    try:
+        until(lambda: running.poll() is not None or has_lines(out / "log.jsonl"), "training", within_s=120)
+        (os.killpg if to_all else os.kill)(running.pid, signal.SIGTERM)
+        told = running.communicate(timeout=60)[1]
+    finally:
+        running.kill()
+    assert running.returncode == 130, told
+    assert "the same command with --resume goes on" in told
+    assert (out / "last.pt").exists()
+
+
+def has_lines(file: Path) -> bool:
+    return file.exists() and file.stat().st_size > 0
 
 
 def test_labels_that_cannot_be_used_stop_with_file_and_place_unless_left_out(
@@ -133,7 +195,7 @@ def test_labels_that_cannot_be_used_stop_with_file_and_place_unless_left_out(
     assert "annotation 1" in told
     assert "area" in told
     assert not (tmp_path / "run").exists()
-    assert [len(example.caps) for example in labels_at(file, lenient=True).examples] == [0, 1]
+    assert [len(example.caps) for example in labels_at([file], lenient=True).examples] == [0, 1]
     del document["annotations"][0]
     file.write_text(json.dumps(document))
     (tmp_path / "coco" / "images" / "bed_2.jpg").unlink()

@@ -1,0 +1,44 @@
+"""A command that is told to end stops as after Ctrl+C, so that it keeps what it has and says how to go on."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from app.commands.progress import Progress
+
+
+@contextmanager
+def stopped_by_sigterm(progress: Progress) -> Iterator[Progress]:
+    """After SIGTERM, which kill, systemd and containers send, the progress yielded raises KeyboardInterrupt.
+
+    So work ends between two steps and never within one.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield progress
+        return
+    told = threading.Event()
+
+    def tell(*_: object) -> None:
+        told.set()
+        # Where all processes were told, those that cut crops have ended, which torch would take for a crash.
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+
+    def report(done: int, total: int, what: str) -> None:
+        progress(done, total, what)
+        if told.is_set():
+            raise KeyboardInterrupt
+
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGCHLD)}
+    signal.signal(signal.SIGTERM, tell)
+    try:
+        yield report
+    except RuntimeError:
+        if told.is_set():
+            raise KeyboardInterrupt from None
+        raise
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
