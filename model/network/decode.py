@@ -17,6 +17,10 @@ LEVEL_STRIDES = (8, 8, 16, 32, 32)
 """A mask of no more cells than this, at a mask stride of 4 photo pixels, is dropped."""
 
 
+FAR = -20.0
+"""The logit of what cannot be part of a cap."""
+
+
 class DecodeConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How instances are chosen; the reference's figures, but for the number kept."""
 
@@ -40,31 +44,63 @@ class Instances(NamedTuple):
     """(K, h, w), at the mask stride; above 0 is cap."""
 
 
+class _Candidates(NamedTuple):
+    """The n grid cells that may hold a cap."""
+
+    scores: Tensor
+    """(n,)."""
+    kernels: Tensor
+    """(n, E)."""
+    least: Tensor
+    """(n,): cells of the mask that a mask must have more of."""
+    middles: Tensor
+    """(n, 2): x, y of the grid cells' middles, as shares of the input's width and height."""
+    reach: Tensor
+    """(n,): photo pixels around the middle beyond which no cap of this level lies."""
+
+
 def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig) -> Instances:
     """The instances of input ``image`` of the batch."""
-    scores, kernels, least = _candidates(outputs, image, config, settings)
-    owners = torch.zeros(len(kernels), dtype=torch.int64, device=kernels.device)
-    logits = mask_logits(outputs.feature[image : image + 1], kernels, owners)
+    found = _candidates(outputs, image, config, settings)
+    owners = torch.zeros(len(found.kernels), dtype=torch.int64, device=found.kernels.device)
+    logits = mask_logits(outputs.feature[image : image + 1], found.kernels, owners)
+    logits = logits.masked_fill(_beyond_reach(found, logits, config.mask_stride), FAR)
     masks = logits > 0
     area = masks.flatten(1).sum(1)
     inside = (logits.sigmoid() * masks).flatten(1).sum(1) / area.clamp(min=1)
-    scores = torch.where(area > least, scores * inside, 0.0)
+    scores = torch.where(area > found.least, found.scores * inside, 0.0)
     order = scores.topk(min(settings.most_before_nms, int((scores > 0).sum()))).indices
     scores = matrix_nms(masks[order], scores[order])
     kept = scores.topk(min(settings.most, int((scores >= settings.least_score).sum()))).indices
     order = order[kept]
-    return Instances(scores[kept], kernels[order], logits[order])
+    return Instances(scores[kept], found.kernels[order], logits[order])
 
 
-def _candidates(
-    outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig
-) -> tuple[Tensor, Tensor, Tensor]:
-    """Scores (n,), kernels (n, E) and least areas (n,; mask cells) of the grid cells that may hold a cap."""
-    scores, kernels, least = [], [], []
+def _candidates(outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig) -> _Candidates:
+    parts = []
     for level, logits in enumerate(outputs.categories):
         peaks = points_nms(logits[image : image + 1].sigmoid(), window=settings.window)[0]
         held = peaks > settings.least_cell_score
-        scores.append(peaks[held])
-        kernels.append(outputs.kernels[level][image].permute(1, 2, 0)[held])
-        least.append(torch.full_like(scores[-1], LEVEL_STRIDES[level] / config.reduction**2))
-    return torch.cat(scores), torch.cat(kernels), torch.cat(least)
+        rows, columns = held.nonzero().unbind(1)
+        scores = peaks[held]
+        parts.append(
+            _Candidates(
+                scores=scores,
+                kernels=outputs.kernels[level][image].permute(1, 2, 0)[held],
+                least=torch.full_like(scores, LEVEL_STRIDES[level] / config.reduction**2),
+                middles=torch.stack([(columns + 0.5) / held.shape[1], (rows + 0.5) / held.shape[0]], dim=1),
+                reach=torch.full_like(scores, config.scale_ranges[level][1] * config.reduction),
+            )
+        )
+    return _Candidates(*(torch.cat(part) for part in zip(*parts, strict=True)))
+
+
+def _beyond_reach(found: _Candidates, logits: Tensor, stride: int) -> Tensor:
+    """(n, h, w) bool. Kernels are learnt on crops: what they say of caps further away means nothing."""
+    height, width = logits.shape[1:]
+    x = (torch.arange(width, device=logits.device) + 0.5) / width
+    y = (torch.arange(height, device=logits.device) + 0.5) / height
+    reach = (found.reach / stride)[:, None]
+    beside = (x - found.middles[:, :1]).abs() * width > reach
+    above = (y - found.middles[:, 1:]).abs() * height > reach
+    return beside[:, None, :] | above[:, :, None]
