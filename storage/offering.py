@@ -44,10 +44,10 @@ def _known(
     known = np.zeros(len(seen), bool)
     touching = _touching(seen, said)
     size = {"height": image.height, "width": image.width}
-    drawn = {nth: rle_of_outline(said[nth], **size) for nth in np.flatnonzero(touching.any(axis=0))}
+    drawn = {nth: rle_of_outline(said[nth], **size) for nth in np.flatnonzero(touching.any(axis=0)).tolist()}
     areas = {nth: area_of_rle(code) for nth, code in drawn.items()}
-    for row in np.flatnonzero(touching.any(axis=1)):
-        near = np.flatnonzero(touching[row])
+    for row in np.flatnonzero(touching.any(axis=1)).tolist():
+        near = np.flatnonzero(touching[row]).tolist()
         mask = rle_of_outline(seen[row], **size)
         iou = iou_matrix([mask], [drawn[nth] for nth in near])[0]
         if iou.any():
