@@ -24,7 +24,7 @@ from model.network.lite0 import imagenet_weights
 from model.network.pr_solov2 import PRSOLOv2
 from model.network.weights import load_weights
 from model.recipe import Recipe, checked, read_recipe
-from model.shipped import SHIPPED
+from model.shipped import RECIPE, SHIPPED
 from model.train import RUN, TrainResult, train
 from storage.project import SETTINGS
 
@@ -32,6 +32,8 @@ IMAGENET = "imagenet"
 """Given in place of a file: a new network, its backbone as ImageNet left it."""
 WARM_UP_SHARE = 0.1
 """Of the iterations, where their number is given: the paper's 500 of 5000."""
+FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 1e-4, 0.98
+"""Iterations, rate and average of weights that are trained further."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,12 +52,9 @@ class Asked:
     lenient: bool = False
     """Labels that cannot be used are left out."""
 
-    @property
-    def recipe(self) -> Recipe | None:
-        """The paper's with what the file and the options say otherwise; None where they say nothing."""
-        if self.config is None and self.iterations is None and self.seed is None:
-            return None
-        return recipe_of(self.config, iterations=self.iterations, seed=self.seed)
+    def recipe(self, usual: Recipe) -> Recipe:
+        """The file's, or the usual one where none is named, with what the options say otherwise."""
+        return recipe_of(self.config, iterations=self.iterations, seed=self.seed, usual=usual)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +74,8 @@ def train_as_asked(
     """Trains on the labels of a project or of COCO files; everything is kept in the folder ``out``.
 
     A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
-    for. Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
+    for. Where no recipe is, weights of ours are trained ``further``, a new network by the paper's.
+    Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
     """
     on = device_of(device)
     labels = labels_at(sources, lenient=asked.lenient, progress=progress)
@@ -85,11 +85,13 @@ def train_as_asked(
     )
     record = record_of(labels, validation)
     if asked.resume:
-        start = continuation_of(out, asked.recipe, record)
+        start = continuation_of(out, asked, record)
     else:
-        recipe = asked.recipe or Recipe()
-        usual = shipped_for(recipe) if (sources[0] / SETTINGS).exists() else None
-        start = start_of(recipe, asked.weights or usual, record)
+        weights = asked.weights
+        if weights is None and (sources[0] / SETTINGS).exists():
+            weights = shipped_for(asked.recipe(Recipe()))
+        goes_on = weights is not None and Path(weights).suffix == ".safetensors"
+        start = start_of(asked.recipe(further() if goes_on else Recipe()), weights, record)
     learnt, checks = divided(labels, validation, seed=start.recipe.seed)
     return train(
         learnt,
@@ -106,13 +108,29 @@ def train_as_asked(
     )
 
 
-def recipe_of(config: Path | None, *, iterations: int | None, seed: int | None) -> Recipe:
-    """The paper's recipe with what a file and the options say otherwise. Raises RecipeError."""
-    recipe = read_recipe(config) if config else Recipe()
+def recipe_of(
+    config: Path | None, *, iterations: int | None, seed: int | None, usual: Recipe | None = None
+) -> Recipe:
+    """A file's recipe, else the usual one (None: the paper's), with what the options say otherwise.
+
+    Raises RecipeError.
+    """
+    recipe = read_recipe(config) if config else usual or Recipe()
     if iterations is not None:
         warm_up = min(recipe.warm_up, int(iterations * WARM_UP_SHARE))
         recipe = structs.replace(recipe, iterations=iterations, warm_up=warm_up)
     return checked(recipe if seed is None else structs.replace(recipe, seed=seed), where="The recipe")
+
+
+def further() -> Recipe:
+    """How weights that can do their work learn more: as the shipped ones were trained, in gentler steps.
+
+    The paper's rate, which is for a new network, has them forget most of what they know within a few steps.
+    """
+    shipped = read_recipe(RECIPE)
+    return structs.replace(
+        shipped, iterations=FURTHER, warm_up=FURTHER // 10, rate=GENTLE_RATE, average=GENTLE_AVERAGE
+    )
 
 
 def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
@@ -172,8 +190,8 @@ def shipped_for(recipe: Recipe) -> str | None:
     return str(SHIPPED)
 
 
-def continuation_of(out: Path, asked: Recipe | None, labels: bytes) -> Start:
-    """The run in ``out``, to go on with. ``asked`` None asks for its own recipe.
+def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
+    """The run in ``out``, to go on with, by its own recipe.
 
     Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
     """
@@ -184,9 +202,9 @@ def continuation_of(out: Path, asked: Recipe | None, labels: bytes) -> Start:
         raise CheckpointError(f"There is nothing to resume in {out}; start without --resume.") from None
     except (OSError, KeyError, msgspec.MsgspecError) as error:
         raise CheckpointError(f"{out / RUN} cannot be read; start again in a new folder.") from error
-    asked = asked and structs.replace(asked, network=recipe.network)
-    if asked not in (None, recipe):
-        changed = [name for name in Recipe.__struct_fields__ if getattr(asked, name) != getattr(recipe, name)]
+    wanted = structs.replace(asked.recipe(recipe), network=recipe.network)
+    if wanted != recipe:
+        changed = [n for n in Recipe.__struct_fields__ if getattr(wanted, n) != getattr(recipe, n)]
         raise FairyringError(
             f"The run in {out} has another recipe ({', '.join(changed)}); "
             "resume without --config, --iterations and --seed, or train into a new folder."

@@ -40,7 +40,7 @@ def train(
     *,
     out: Annotated[Path, typer.Option(help="A new folder for weights, log and curves.")],
     config: Annotated[
-        Path | None, typer.Option(help="TOML recipe; what it leaves out is the paper's.")
+        Path | None, typer.Option(help="TOML recipe; what it leaves out is as in the paper.")
     ] = None,
     weights: Annotated[
         str | None,

@@ -84,4 +84,5 @@ def run_badge(run: Run) -> Markup:
             "These predictions are true masks distorted by a noise model; no network has seen the photo."
         )
         return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
-    return element("span", run.name, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")
+    words = f"predicted by {run.name}" if run.kind == "network" else run.name
+    return element("span", words, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")

@@ -19,7 +19,7 @@ from app.labels import divided, labels_at, labels_of_project
 from model.errors import FairyringError
 from model.geometry import Circle
 from model.network.weights import load_weights
-from model.recipe import read_recipe
+from model.recipe import Recipe, read_recipe
 from storage.exporting import export_coco
 from storage.images import set_status
 from storage.journal import Derived, commit
@@ -337,3 +337,23 @@ def test_a_short_run_warms_up_for_a_tenth_of_it(recipe: Path) -> None:
     assert recipe_of(None, iterations=100, seed=4).warm_up == 10
     assert recipe_of(None, iterations=100, seed=4).seed == 4
     assert recipe_of(recipe, iterations=None, seed=None) == read_recipe(recipe)
+
+
+def test_weights_of_ours_are_trained_further_in_gentle_steps_unless_a_recipe_says_otherwise(
+    labelled: Project, recipe: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    base = tmp_path / "base.safetensors"
+    write_weights(base)
+    seen: list[Recipe] = []
+
+    def note(*_: object, recipe: Recipe, **__: object) -> None:
+        seen.append(recipe)
+        raise FairyringError("seen")
+
+    monkeypatch.setattr("app.training.train", note)
+    for number, options in enumerate([("--weights", base), ("--weights", "imagenet"), ("--config", recipe)]):
+        assert sentence(train(labelled.folder, tmp_path / str(number), *options)) == "seen"
+    gentle, paper, own = seen
+    assert (gentle.optimiser, gentle.rate, gentle.iterations, gentle.warm_up) == ("adamw", 1e-4, 500, 50)
+    assert paper == Recipe()
+    assert own == read_recipe(recipe)
