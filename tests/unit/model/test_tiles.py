@@ -51,23 +51,30 @@ def test_a_cap_up_to_the_overlap_is_whole_in_its_own_tile(
     assert tile.y + tile.height >= min(height, y + r)
 
 
-def test_a_photo_of_the_usual_size_is_one_piece() -> None:
-    (tile,) = tiles_of(1280, 720)
-    assert (tile.x, tile.y, tile.width, tile.height) == (0, 0, 1280, 720)
+def test_a_small_photo_is_one_piece() -> None:
+    (tile,) = tiles_of(700, 500)
+    assert (tile.x, tile.y, tile.width, tile.height) == (0, 0, 700, 500)
     assert tile.owns(-5.0, 1e9)
 
 
+def test_a_photo_of_the_usual_size_is_two_pieces_side_by_side() -> None:
+    left, right = tiles_of(1280, 720)
+    assert (left.x, left.y, left.width, left.height) == (0, 0, 768, 720)
+    assert (right.x, right.y, right.width, right.height) == (512, 0, 768, 720)
+    assert left.own[2] == right.own[0] == 640
+
+
 def test_no_more_tiles_than_needed() -> None:
-    assert len(tiles_of(1281, 100)) == 2
+    assert len(tiles_of(SIDE + 1, 100)) == 2
     assert len(tiles_of(2 * SIDE - OVERLAP, 100)) == 2
     assert len(tiles_of(2 * SIDE - OVERLAP + 1, 100)) == 3
     assert [tile.own for tile in tiles_of(2 * SIDE - OVERLAP, 100)] == [
-        (float("-inf"), float("-inf"), 1152.0, float("inf")),
-        (1152.0, float("-inf"), float("inf"), float("inf")),
+        (float("-inf"), float("-inf"), 640.0, float("inf")),
+        (640.0, float("-inf"), float("inf"), float("inf")),
     ]
 
 
 def test_slack_widens_what_is_owned_on_every_side() -> None:
     left, right = tiles_of(2 * SIDE - OVERLAP, 100)
-    assert [left.owns(x, 50, slack=8.0) for x in (1100, 1159.9, 1160)] == [True, True, False]
-    assert [right.owns(x, 50, slack=8.0) for x in (1143.9, 1144, 2000)] == [False, True, True]
+    assert [left.owns(x, 50, slack=8.0) for x in (600, 647.9, 648)] == [True, True, False]
+    assert [right.owns(x, 50, slack=8.0) for x in (631.9, 632, 1200)] == [False, True, True]
