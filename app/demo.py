@@ -6,22 +6,20 @@ import os
 import tempfile
 from pathlib import Path
 
-from app.derive import Progress, fill_in
+from app.derive import Progress
 from app.predicting import network_of, predict_images
-from app.simulated import simulate
 from model.scene.dataset import write_beds
 from model.scene.presets import preset
 from model.shipped import SHIPPED
 from storage.images import ImageFilter, list_ids
 from storage.importing import import_paths
-from storage.project import Project, create_project
+from storage.project import create_project
 
 
 def make_demo(folder: Path, *, count: int, seed: int, progress: Progress = lambda *_: None) -> None:
     """Makes ``folder`` a project of ``count`` rendered beds with predictions.
 
-    They are simulated until weights ship. Raises StoreError where the folder is a project already, or cannot
-    be written.
+    Raises StoreError where the folder is a project already, or cannot be written.
     """
     with create_project(folder) as project, tempfile.TemporaryDirectory() as rendered:
         beds = Path(rendered)
@@ -29,11 +27,6 @@ def make_demo(folder: Path, *, count: int, seed: int, progress: Progress = lambd
             beds, preset("default"), count=count, seed=seed, jobs=os.cpu_count() or 1, progress=progress
         )
         import_paths(project, [beds / "images"])
-        _predict(project, progress) if SHIPPED.exists() else simulate(project, beds, seed=seed)
-        fill_in(project, progress=progress)
-
-
-def _predict(project: Project, progress: Progress) -> None:
-    with project.read() as connection:
-        images = list_ids(connection, ImageFilter())
-    predict_images(project, network_of(SHIPPED), images, progress=progress)
+        with project.read() as connection:
+            images = list_ids(connection, ImageFilter())
+        predict_images(project, network_of(SHIPPED), images, progress=progress)

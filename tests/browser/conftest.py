@@ -30,7 +30,7 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def project(made_once: Path, tmp_path: Path) -> Path:
-    """Three generated beds with simulated predictions, fresh for each test."""
+    """Three rendered beds with what the shipped weights see in them, fresh for each test."""
     return Path(shutil.copytree(made_once, tmp_path / "beds"))
 
 

@@ -55,7 +55,7 @@ def tab(server: Server, open_tab: Callable[..., Tab]) -> Tab:
 def test_the_page_shows_a_photo_with_predictions_and_nothing_corrected(tab: Tab) -> None:
     assert len(tab.state("predictions")) > 20
     assert tab.state("shapes") == []
-    tab.page.get_by_text("simulated").first.wait_for()
+    tab.page.get_by_text("predicted by lite0").first.wait_for()
 
 
 def test_accepting_a_prediction_makes_it_an_annotation(tab: Tab, project: Path) -> None:
