@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import torch
 from torch import Tensor, nn
-from torch.nn import functional as F  # noqa: N812
+from torch.nn import functional as F
 
 CHANNELS = (24, 40, 112, 320)
 """Of C2…C5, at strides 4, 8, 16 and 32."""

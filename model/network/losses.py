@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import torch
 from torch import Tensor
-from torch.nn import functional as F  # noqa: N812
+from torch.nn import functional as F
 
 ALPHA, GAMMA = 0.25, 2.0
 DICE_WEIGHT = 3.0

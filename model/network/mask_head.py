@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import cast
 
 from torch import Tensor, nn
-from torch.nn import functional as F  # noqa: N812
+from torch.nn import functional as F
 
 from model.network.blocks import conv_norm_relu, start_small
 from model.network.coordinates import with_coordinates

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import torch
 from torch import Tensor, nn
-from torch.nn import functional as F  # noqa: N812
+from torch.nn import functional as F
 
 from model.network.backbone import build_backbone, normalisation_of
 from model.network.category_head import CategoryHead
