@@ -6,8 +6,10 @@ import json
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import Result
@@ -18,6 +20,7 @@ from app.gateway.messages import Edits, Notice, Predicted, Select, Show
 from app.predicting import Network, network_of, predict_images
 from app.weights import weights_of
 from model.errors import FairyringError
+from model.predict import Predictor
 from storage.documents import load_annotations, load_document, load_predictions
 from storage.images import ImageFilter, list_ids
 from storage.predictions import list_runs
@@ -245,9 +248,17 @@ def test_a_button_predicts_the_image_and_draws_it_in_every_tab_that_shows_it(
 
 
 def test_a_button_predicts_every_image_until_it_is_cancelled(
-    serve: Callable[..., int], project: Project, ids: list[int]
+    serve: Callable[..., int], project: Project, ids: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_weights(project.folder / "weights" / "own.safetensors")
+    detect = Predictor.detect
+
+    def slowly(self: Predictor, photo: Any) -> Any:
+        # Progress is drawn twice a second, and such small photos would be done before.
+        time.sleep(1.5)
+        return detect(self, photo)
+
+    monkeypatch.setattr(Predictor, "detect", slowly)
     with Tab(serve(), image=ids[2]) as tab:
         tab.expect(Show)
         tab.panel.set("Predict every image", True)
