@@ -41,9 +41,10 @@ class SameConv(nn.Conv2d):
         total = self.kernel_size[0] - self.stride[0]
         before = total // 2
         if total % 2:
-            input = F.pad(input, (before, total - before, before, total - before))  # noqa: A001
-            before = 0
-        return F.conv2d(input, self.weight, self.bias, self.stride, before, groups=self.groups)
+            padded, before = F.pad(input, (before, total - before, before, total - before)), 0
+        else:
+            padded = input
+        return F.conv2d(padded, self.weight, self.bias, self.stride, before, groups=self.groups)
 
 
 def _norm(channels: int) -> nn.BatchNorm2d:
