@@ -12,13 +12,10 @@ from model.network.config import NetworkConfig
 from model.network.dynamic_conv import mask_logits
 from model.network.matrix_nms import matrix_nms, points_nms
 from model.network.pr_solov2 import Outputs
+from model.network.reach import middles_of, reach_of, within_reach
 
 LEVEL_STRIDES = (8, 8, 16, 32, 32)
 """A mask of no more cells than this, at a mask stride of 4 photo pixels, is dropped."""
-
-
-FAR = -20.0
-"""The logit of what cannot be part of a cap."""
 
 
 class DecodeConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -64,7 +61,7 @@ def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: Decode
     found = _candidates(outputs, image, config, settings)
     owners = torch.zeros(len(found.kernels), dtype=torch.int64, device=found.kernels.device)
     logits = mask_logits(outputs.feature[image : image + 1], found.kernels, owners)
-    logits = logits.masked_fill(_beyond_reach(found, logits, config.mask_stride), FAR)
+    logits = within_reach(logits, found.middles, found.reach / config.mask_stride)
     masks = logits > 0
     area = masks.flatten(1).sum(1)
     inside = (logits.sigmoid() * masks).flatten(1).sum(1) / area.clamp(min=1)
@@ -81,26 +78,14 @@ def _candidates(outputs: Outputs, image: int, config: NetworkConfig, settings: D
     for level, logits in enumerate(outputs.categories):
         peaks = points_nms(logits[image : image + 1].sigmoid(), window=settings.window)[0]
         held = peaks > settings.least_cell_score
-        rows, columns = held.nonzero().unbind(1)
         scores = peaks[held]
         parts.append(
             _Candidates(
                 scores=scores,
                 kernels=outputs.kernels[level][image].permute(1, 2, 0)[held],
                 least=torch.full_like(scores, LEVEL_STRIDES[level] / config.reduction**2),
-                middles=torch.stack([(columns + 0.5) / held.shape[1], (rows + 0.5) / held.shape[0]], dim=1),
-                reach=torch.full_like(scores, config.scale_ranges[level][1] * config.reduction),
+                middles=middles_of(held),
+                reach=torch.full_like(scores, reach_of(config, level)),
             )
         )
     return _Candidates(*(torch.cat(part) for part in zip(*parts, strict=True)))
-
-
-def _beyond_reach(found: _Candidates, logits: Tensor, stride: int) -> Tensor:
-    """(n, h, w) bool. Kernels are learnt on crops: what they say of caps further away means nothing."""
-    height, width = logits.shape[1:]
-    x = (torch.arange(width, device=logits.device) + 0.5) / width
-    y = (torch.arange(height, device=logits.device) + 0.5) / height
-    reach = (found.reach / stride)[:, None]
-    beside = (x - found.middles[:, :1]).abs() * width > reach
-    above = (y - found.middles[:, 1:]).abs() * height > reach
-    return beside[:, None, :] | above[:, :, None]

@@ -9,11 +9,13 @@ import torch
 from torch import Tensor
 
 from model.network.boxes import boxes_of, with_margin
+from model.network.config import NetworkConfig
 from model.network.dynamic_conv import mask_logits
 from model.network.losses import DICE_WEIGHT, dice_loss, focal_loss, point_loss
 from model.network.point_rend import Queries
 from model.network.point_sampling import sample_maps, training_points
 from model.network.pr_solov2 import Outputs, PRSOLOv2
+from model.network.reach import middles_of, reach_of, within_reach
 from model.network.targets import IGNORED
 
 POINTS = 196
@@ -80,14 +82,19 @@ class _Positives(NamedTuple):
     """(P,), rising."""
     caps: Tensor
     """(P,): place of the cap among all caps of the batch."""
+    middles: Tensor
+    """(P, 2): x, y of the cells' middles, as shares of the input's width and height."""
+    reach: Tensor
+    """(P,): photo pixels around the middle within which the cap is looked for."""
 
 
 def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
     """Of one forward pass over ``batch.photos``."""
-    positives = _positives(outputs, batch)
+    positives = _positives(outputs, batch, network.config)
     category = _category_loss(outputs, batch) / (len(positives.caps) + 1)
     targets = torch.cat([caps.targets for caps in batch.caps])
     logits = mask_logits(outputs.feature, positives.kernels, positives.images)
+    logits = within_reach(logits, positives.middles, positives.reach / network.config.mask_stride)
     nothing = outputs.feature.sum() * 0
     mask = dice_loss(logits, targets[positives.caps]).mean() if len(logits) else nothing
     points = nothing
@@ -98,17 +105,24 @@ def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
     return Losses(category, mask, points)
 
 
-def _positives(outputs: Outputs, batch: Batch) -> _Positives:
-    kernels, images, places = [], [], []
+def _positives(outputs: Outputs, batch: Batch, config: NetworkConfig) -> _Positives:
+    parts = []
     first = 0
     for image, caps in enumerate(batch.caps):
         for level, cells in enumerate(caps.cells):
             held = cells >= 0
-            kernels.append(outputs.kernels[level][image].permute(1, 2, 0)[held])
-            places.append(cells[held] + first)
-            images.append(torch.full_like(places[-1], image))
+            places = cells[held] + first
+            parts.append(
+                _Positives(
+                    kernels=outputs.kernels[level][image].permute(1, 2, 0)[held],
+                    images=torch.full_like(places, image),
+                    caps=places,
+                    middles=middles_of(held),
+                    reach=torch.full_like(places, reach_of(config, level), dtype=torch.float32),
+                )
+            )
         first += len(caps.masks)
-    return _Positives(torch.cat(kernels), torch.cat(images), torch.cat(places))
+    return _Positives(*(torch.cat(part) for part in zip(*parts, strict=True)))
 
 
 def _category_loss(outputs: Outputs, batch: Batch) -> Tensor:

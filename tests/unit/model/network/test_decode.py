@@ -83,13 +83,21 @@ def test_masks_no_larger_than_their_levels_stride_are_dropped() -> None:
     outputs = scene({(4, 0, 0): (3.0, 0)})
     assert len(decode(outputs, 1, CONFIG, DecodeConfig()).scores) == 1
     for count, instances in ((8, 0), (9, 1)):
-        outputs = scene({(0, 1, 2): (3.0, 2)})
-        outputs.feature[1, 2].flatten()[:count] = 1.0
+        outputs = scene({(0, 0, 0): (3.0, 2)})
+        outputs.feature[1, 2, 0, :count] = 1.0
         assert len(decode(outputs, 1, CONFIG, DecodeConfig()).scores) == instances
     # At half the resolution a cell of the mask is four times as large.
-    outputs = scene({(0, 1, 2): (3.0, 2)})
-    outputs.feature[1, 2].flatten()[:3] = 1.0
+    outputs = scene({(0, 0, 0): (3.0, 2)})
+    outputs.feature[1, 2, 0, :3] = 1.0
     assert len(decode(outputs, 1, replace(CONFIG, reduction=2), DecodeConfig()).scores) == 1
+
+
+def test_what_lies_beyond_a_levels_reach_is_no_part_of_its_caps() -> None:
+    # Level 0 reaches 2/3 · 56 = 37.3 photo pixels, 9.3 cells; the middle of its last cell is at 30 cells.
+    outputs = scene({(0, 7, 7): (3.0, 0)})
+    outputs.feature[1, 0] = 1.0
+    found = decode(outputs, 1, CONFIG, DecodeConfig())
+    assert boxes_of(found.logits > 0).tolist() == [[21, 21, 11, 11]]
 
 
 def test_no_more_than_asked_for() -> None:

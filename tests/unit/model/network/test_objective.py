@@ -86,6 +86,17 @@ def test_a_crop_without_caps_beside_one_with_caps_changes_neither_masks_nor_poin
     assert float(two.category) > float(one.category)
 
 
+def near(middle: tuple[float, float], pixels: float, map_of_cells: torch.Tensor) -> torch.Tensor:
+    """1 in the cells, 4 photo pixels a side, whose middles are within so many pixels on both axes."""
+    rows, columns = map_of_cells.shape
+    inside = torch.zeros(rows, columns)
+    for row in range(rows):
+        for column in range(columns):
+            x, y = (column + 0.5) * 4 - middle[0] * columns * 4, (row + 0.5) * 4 - middle[1] * rows * 4
+            inside[row, column] = float(max(abs(x), abs(y)) <= pixels)
+    return inside
+
+
 def test_terms_are_those_of_a_loop_over_cells() -> None:
     network = tiny().eval()
     batch = batch_for(network, crop_of(DISCS[:2], ignored=True), crop_of(DISCS[1:]))
@@ -108,6 +119,8 @@ def test_terms_are_those_of_a_loop_over_cells() -> None:
                     positives += 1
                     kernel = outputs.kernels[level][image, :, row, column]
                     p = torch.einsum("e,ehw->hw", kernel, outputs.feature[image]).sigmoid()
+                    middle = ((column + 0.5) / cells.shape[1], (row + 0.5) / cells.shape[0])
+                    p = p * near(middle, 2 / 3 * network.config.scale_ranges[level][1], p)
                     q = F.avg_pool2d(caps.masks[cap : cap + 1].float(), 4)[0]
                     dice.append(1 - 2 * float((p * q).sum()) / float((p**2).sum() + (q**2).sum()))
     assert ignored > 0
