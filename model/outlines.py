@@ -25,7 +25,12 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
 
     Marching squares between the middles of pixels, the outside below 0. Empty where nothing is above 0.
     """
-    padded = np.pad(np.clip(logits, -MOST_LOGIT, MOST_LOGIT), 1, constant_values=-MOST_LOGIT)
+    inside = logits > 0
+    if not inside.any():
+        return []
+    left, top, right, bottom = _box(inside)
+    padded = np.pad(logits, 1, constant_values=-MOST_LOGIT)[top : bottom + 2, left : right + 2]
+    padded = padded.clip(-MOST_LOGIT, MOST_LOGIT)
     filled = contour_generator(z=padded, fill_type=FillType.OuterOffset).filled(0.0, np.inf)
     loops = [
         [points[first:last] for first, last in pairwise(ends)] for points, ends in zip(*filled, strict=True)
@@ -39,10 +44,19 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
         simple = [_simplified(ring) for ring in (rings[0], *holes)]
         if all(len(ring) >= 3 for ring in simple):
             # The padding moved every index by 1, the middle of a pixel lies half a pixel in.
-            points = join_holes(simple[0], simple[1:]) - 0.5
+            points = join_holes(simple[0], simple[1:]) - 0.5 + (left, top)
             points = points.clip(0, logits.shape[::-1]) + corner
             outline.append(part_of_points(points.round(2)))
     return outline
+
+
+def _box(inside: NDArray[np.bool_]) -> tuple[int, int, int, int]:
+    """left, top, right, bottom of what is True: its columns are ``left : right``.
+
+    Of an array padded by 1, ``left : right + 2`` are those and one on either side.
+    """
+    columns, rows = np.flatnonzero(inside.any(0)), np.flatnonzero(inside.any(1))
+    return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 
 
 def _simplified(ring: Points) -> Points:

@@ -13,7 +13,7 @@ from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from model.geometry import Outline
-from model.network.decode import DecodeConfig, decode
+from model.network.decode import DecodeConfig, Instances, decode
 from model.network.fold import fold_batch_norms
 from model.network.pr_solov2 import Outputs, PRSOLOv2
 from model.network.refine import draw
@@ -117,7 +117,7 @@ class Predictor:
     def _of_piece(
         self, seen: Seen, tile: Tile, outputs: Outputs, place: int, settings: DecodeConfig
     ) -> Iterator[Detection]:
-        instances = decode(outputs, place, self.network.config, settings)
+        instances = _distinct(decode(outputs, place, self.network.config, settings))
         drawn = draw(
             self.network.point_head,
             outputs.point_maps,
@@ -128,10 +128,7 @@ class Predictor:
         )
         scores = instances.scores.tolist()
         windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
-        size = {"width": tile.width, "height": tile.height}
-        own = distinct(windows, scores, **size)
-        scores = [scores[nth] for nth in own]
-        settled = settle([windows[nth] for nth in own], scores, **size)
+        settled = settle(windows, scores, width=tile.width, height=tile.height)
         for score, window in zip(scores, settled, strict=True):
             outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
             if not outline:
@@ -140,6 +137,13 @@ class Predictor:
             if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist(), slack=SLACK):
                 rle = rle_of_outline(outline, height=seen.height, width=seen.width)
                 yield Detection(score=score, outline=outline, rle=rle)
+
+
+def _distinct(instances: Instances) -> Instances:
+    """Those that are caps of their own; the others need not be drawn."""
+    kept = distinct((instances.logits > 0).cpu().numpy(), instances.scores.tolist())
+    chosen = torch.tensor(kept, dtype=torch.int64, device=instances.scores.device)
+    return Instances(*(part[chosen] for part in instances))
 
 
 def _without_repeats(found: list[tuple[Detection, int]]) -> list[Detection]:

@@ -23,22 +23,20 @@ class Window:
     logits: NDArray[np.float32]
 
 
-def distinct(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[int]:
+def distinct(masks: NDArray[np.bool_], scores: Sequence[float]) -> list[int]:
     """The places of the instances that do not lie, for the most part, on better and confident ones.
 
-    ``scores`` must fall. An instance without a pixel in the photo is left out, too.
+    ``masks`` (n, h, w), of any stride; ``scores`` must fall. An empty mask is left out, too.
     """
-    taken = np.zeros((height, width), bool)
+    taken = np.zeros(masks.shape[1:], bool)
     kept = []
-    for nth, (window, score) in enumerate(zip(windows, scores, strict=True)):
-        inside = _cut(window, width=width, height=height)
-        mask, place = inside.logits > 0, _place(inside)
+    for nth, (mask, score) in enumerate(zip(masks, scores, strict=True)):
         area = np.count_nonzero(mask)
-        if area == 0 or np.count_nonzero(mask & taken[place]) > MOST_TAKEN * area:
+        if area == 0 or np.count_nonzero(mask & taken) > MOST_TAKEN * area:
             continue
         kept.append(nth)
         if score >= CONFIDENT:
-            taken[place] |= mask
+            taken |= mask
     return kept
 
 

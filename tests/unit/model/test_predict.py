@@ -136,7 +136,7 @@ def test_a_cap_whose_middle_is_on_the_seam_is_neither_lost_nor_told_twice(
     def drawn(*_: object, **__: object) -> list[Drawn]:
         return [Drawn(0, 0, 20 - torch.hypot(x - next(middles), y - 64))]
 
-    found = Instances(torch.tensor([0.9]), torch.zeros(1, 32), torch.zeros(1, 32, 32))
+    found = Instances(torch.tensor([0.9]), torch.zeros(1, 32), torch.ones(1, 32, 32))
     monkeypatch.setattr("model.predict.decode", lambda *_: found)
     monkeypatch.setattr("model.predict.draw", drawn)
     (cap,) = Predictor(tiny(), device=CPU).detect(np.zeros((SIDE, 192, 3), np.uint8))

@@ -95,30 +95,30 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
         assert np.isfinite(whole).sum() == one.logits.size
 
 
-def filled(x: int, y: int, side: int) -> Window:
-    """A square cap with a margin of a pixel around it."""
-    logits = np.full((side + 2, side + 2), -1.0, np.float32)
-    logits[1:-1, 1:-1] = 3.0
-    return Window(x=x - 1, y=y - 1, logits=logits)
+def squares(*corners: tuple[int, int]) -> NDArray[np.bool_]:
+    """Masks of 20 × 40 cells with a square of 10 cells a side each."""
+    masks = np.zeros((len(corners), 20, 40), bool)
+    for mask, (x, y) in zip(masks, corners, strict=True):
+        mask[y : y + 10, x : x + 10] = True
+    return masks
 
 
 def test_a_second_view_of_a_cap_is_no_cap_of_its_own() -> None:
-    caps = [filled(2, 2, 10), filled(3, 2, 10), filled(10, 2, 10)]
-    # The second shares 90 of its 100 pixels with the first, the third 20.
-    assert distinct(caps, [0.9, 0.8, 0.7], width=40, height=20) == [0, 2]
+    # The second shares 90 of its 100 cells with the first, the third 20.
+    assert distinct(squares((2, 2), (3, 2), (10, 2)), [0.9, 0.8, 0.7]) == [0, 2]
 
 
 def test_half_of_a_cap_may_be_claimed_by_others_and_no_more() -> None:
     for shift, kept in ((5, [0, 1]), (4, [0])):
-        caps = [filled(2, 2, 10), filled(2 + shift, 2, 10)]
-        assert distinct(caps, [0.9, 0.8], width=40, height=20) == kept
+        assert distinct(squares((2, 2), (2 + shift, 2)), [0.9, 0.8]) == kept
 
 
 def test_the_unsure_take_no_caps_from_others() -> None:
     unsure = CONFIDENT - 0.01
-    caps = [filled(2, 2, 10), filled(2, 2, 10)]
-    assert distinct(caps, [unsure, unsure], width=40, height=20) == [0, 1]
+    assert distinct(squares((2, 2), (2, 2)), [unsure, unsure]) == [0, 1]
 
 
-def test_an_instance_outside_of_the_photo_is_no_cap() -> None:
-    assert distinct([filled(50, 2, 10), filled(2, 2, 10)], [0.9, 0.8], width=40, height=20) == [1]
+def test_an_empty_mask_is_no_cap() -> None:
+    masks = squares((2, 2), (2, 2))
+    masks[0] = False
+    assert distinct(masks, [0.9, 0.8]) == [1]
