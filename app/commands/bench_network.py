@@ -1,4 +1,4 @@
-"""``fairyring bench network``: the four tables of docs/results.md, each by one command."""
+"""``fairyring bench network``: the tables of docs/results.md, each by one command."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from model.predict import Predictor
 
 commands = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="Measure a network: success, centres, cost, ablation."
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    help="Measure a network, in five tables.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
@@ -100,11 +102,31 @@ def cost(
 
 
 @commands.command()
+def ways(
+    *, weights: Weights = None, beds: Beds = None, device: OnDevice = Device.auto, as_json: AsJson = False
+) -> None:
+    """Time of one forward pass as it is run, compiled, in bfloat16, channels first, at whole resolution.
+
+    Example: `fairyring bench network ways --device cpu`
+    """
+    from app.bench.network.sets import rendered
+    from app.bench.network.ways import way_rows
+    from model.device import device_of
+    from model.shipped import SHIPPED
+
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        _, photo = next(rendered("paper", folder, count=1, progress=progress).images())
+        rows = way_rows(weights or SHIPPED, photo, device=device_of(device))
+    print_rows("ways", rows, as_json=as_json)
+
+
+@commands.command()
 def ablation(
     *,
     out: Annotated[Path, typer.Option(help="Folder for the beds and the runs; runs there are gone on with.")],
     iterations: Annotated[int, typer.Option(min=1, help="Of every variant.")] = 600,
     train_beds: Annotated[int, typer.Option(min=1, help="Of each preset, to train on.")] = 60,
+    crop: Annotated[int, typer.Option(min=64, help="Side of the crops, photo pixels.")] = 320,
     count: Count = None,
     device: OnDevice = Device.auto,
     as_json: AsJson = False,
@@ -113,14 +135,19 @@ def ablation(
 
     Example: `fairyring bench network ablation --out ablation --iterations 600`
     """
-    from app.bench.network.ablation import ablation_rows
+    from app.bench.network.ablation import ablation_rows, variants
     from app.bench.network.sets import rendered
     from model.device import device_of
 
     with shown_on_stderr() as progress:
         test = rendered("paper", out, count=count, progress=progress)
         rows = ablation_rows(
-            out, test, iterations=iterations, beds=train_beds, device=device_of(device), progress=progress
+            variants(iterations=iterations, crop=crop),
+            folder=out,
+            test=test,
+            beds=train_beds,
+            device=device_of(device),
+            progress=progress,
         )
     print_rows("ablation", rows, as_json=as_json)
 

@@ -61,7 +61,7 @@ class Detail(nn.Module):
 
     def forward(self, photos: Tensor) -> Tensor:
         """See the class."""
-        return F.relu(self.second(F.relu(self.first(photos))))
+        return F.relu(self.second(F.relu(self.first(photos), inplace=True)), inplace=True)
 
 
 class PointHead(nn.Module):

@@ -71,8 +71,8 @@ class PRSOLOv2(nn.Module):
     def forward(self, photos: Tensor, origins: Tensor) -> Outputs:
         """``photos`` (B, 3, H, W) uint8 or float 0…255; ``origins`` (B, 2): see ``with_coordinates``."""
         extent = (photos.shape[-2], photos.shape[-1])
-        photos = (photos.float() / 255 - self.mean) / self.std
-        photos = photos.contiguous(memory_format=torch.channels_last)
+        photos = photos.to(torch.float32, memory_format=torch.channels_last, copy=True)
+        photos = photos.sub_(255 * self.mean).mul_(1 / (255 * self.std))
         reduced = F.avg_pool2d(photos, self.config.reduction) if self.config.reduction > 1 else photos
         pyramid = self.fpn(self.backbone(reduced))
         categories, kernels = self._heads(pyramid, origins, extent)

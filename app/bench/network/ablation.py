@@ -16,7 +16,7 @@ from model.evaluate.masks import evaluate_masks
 from model.network.decode import DecodeConfig
 from model.network.weights import load_weights
 from model.predict import Predictor
-from model.recipe import Recipe, read_recipe
+from model.recipe import Recipe, checked, read_recipe
 from model.shipped import RECIPE
 from model.train import FINAL, train
 from model.train import Progress as Step
@@ -27,12 +27,20 @@ WINDOWS = (2, 1)
 PAPER_SOLOV2 = {"AP": 0.9028}
 
 
-def variants(iterations: int) -> dict[str, Recipe]:
-    """The shipped weights' recipe in each of the ways that are compared, for so many iterations."""
+def variants(*, iterations: int, crop: int) -> dict[str, Recipe]:
+    """The shipped weights' recipe in each of the ways that are compared, for so many iterations.
+
+    ``crop``: side of the crops, photo pixels. Raises RecipeError where it does not fit the network.
+    """
     recipe = read_recipe(RECIPE)
     recipe = replace(
-        recipe, iterations=iterations, warm_up=min(recipe.warm_up, iterations // 6), validate_images=0
+        recipe,
+        iterations=iterations,
+        warm_up=min(recipe.warm_up, iterations // 6),
+        crop=replace(recipe.crop, side=crop),
+        validate_images=0,
     )
+    checked(recipe, where="--crop")
     network = recipe.network
     off, semantic = replace(network, point_rend="off"), replace(network, point_rend="semantic")
     return {
@@ -47,10 +55,10 @@ def variants(iterations: int) -> dict[str, Recipe]:
 
 
 def ablation_rows(
+    recipes: dict[str, Recipe],
+    *,
     folder: Path,
     test: LabelledPhotos,
-    *,
-    iterations: int,
     beds: int,
     device: torch.device,
     progress: Progress,
@@ -66,8 +74,8 @@ def ablation_rows(
         {"network": f"paper: {name}"} | {key: figures.get(key) for key in MASK_FIGURES} | {"window": None}
         for name, figures in (("SOLOv2", PAPER_SOLOV2), ("PR-SOLOv2", PAPER_MASKS))
     ]
-    for name, recipe in variants(iterations).items():
-        out = folder / f"{iterations} {name}".replace(" ", "_").replace(",", "")
+    for name, recipe in recipes.items():
+        out = folder / f"{recipe.iterations} {name}".replace(" ", "_").replace(",", "")
         if not (out / FINAL).exists():
             _train(name, recipe, examples, out, device=device, progress=progress)
         predictor = Predictor(load_weights(out / FINAL).network, device=device)

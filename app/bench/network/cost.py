@@ -10,7 +10,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 import torch
 from numpy.typing import NDArray
@@ -32,7 +31,8 @@ CERTAIN = 0.3
 def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, Any]]:
     """Medians over the first photo of a set; ratios to the backbone's pass at full resolution."""
     _, photo = next(photos.images())
-    reference = _timed(predictor, lambda: _backbone_alone(predictor, photo))
+    device = predictor.device
+    reference = timed(lambda: _backbone_alone(predictor, photo), device)
     seen = predictor.see([photo])[0]
     found = [cap for cap in predictor.read(seen) if cap.score >= CERTAIN]
     stages = [
@@ -41,9 +41,7 @@ def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, An
         ("outlines, and whose pixel it is", lambda: predictor.read(seen)),
         ("whole outlines and centres", lambda: _centres(found, photo)),
     ]
-    times = dict(
-        zip((name for name, _ in stages), (_timed(predictor, work) for _, work in stages), strict=True)
-    )
+    times = {name: timed(work, device) for name, work in stages}
     # The stages overlap: the second runs the first again, and the third the second's part after it.
     forward, upto_masks = times["network: features, heads"], times["instances and their edges"]
     times["instances and their edges"] = upto_masks - forward
@@ -51,7 +49,7 @@ def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, An
     times["storing"] = _storing(photos, found)
     total = sum(times.values())
     rows = [_row(name, seconds, reference, len(found)) for name, seconds in times.items()]
-    rows.append(_row("decoded photo to masks", forward + (upto_masks - forward), reference, len(found)))
+    rows.append(_row("decoded photo to masks", upto_masks, reference, len(found)))
     rows.append(_row("decoded photo to stored centres", total, reference, len(found)))
     rows.append(_row("reference: the backbone alone, full resolution", reference, reference, len(found)))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
@@ -70,20 +68,20 @@ def _row(stage: str, seconds: float, reference: float, caps: int) -> dict[str, A
     }
 
 
-def _timed(predictor: Predictor, work: Callable[[], object]) -> float:
-    """Seconds, median."""
+def timed(work: Callable[[], object], device: torch.device) -> float:
+    """Seconds, median of ROUNDS after WARM_UP; a GPU is waited for."""
     times = []
     for _ in range(WARM_UP + ROUNDS):
-        _wait(predictor)
+        _wait(device)
         began = time.perf_counter()
         work()
-        _wait(predictor)
+        _wait(device)
         times.append(time.perf_counter() - began)
     return statistics.median(times[WARM_UP:])
 
 
-def _wait(predictor: Predictor) -> None:
-    if predictor.device.type == "cuda":
+def _wait(device: torch.device) -> None:
+    if device.type == "cuda":
         torch.cuda.synchronize()
 
 
@@ -139,8 +137,3 @@ def _store(project: Project, image_id: int, found: list[Detection]) -> float:
     began = time.perf_counter()
     project.write(work)
     return time.perf_counter() - began
-
-
-def threads() -> int:
-    """Cores that torch and OpenCV compute on."""
-    return max(torch.get_num_threads(), cv2.getNumThreads())
