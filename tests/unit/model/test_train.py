@@ -49,14 +49,14 @@ def run(examples: list[Example], out: Path, recipe: Recipe = SHORT, **options: A
     return load_weights(result.weights).digest
 
 
-class Stop(Exception):  # noqa: N818
+class StopError(Exception):
     """What somebody's Ctrl+C might be."""
 
 
 def stop_after(iteration: int) -> Any:
     def report(progress: Progress) -> None:
         if progress.iteration == iteration:
-            raise Stop
+            raise StopError
 
     return report
 
@@ -91,7 +91,7 @@ def test_a_run_leaves_weights_a_log_curves_and_its_recipe(learnt: Learnt) -> Non
 
 def test_a_run_stopped_and_resumed_is_one_that_never_stopped(examples: list[Example], tmp_path: Path) -> None:
     through = run(examples, tmp_path / "through")
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         run(examples, tmp_path / "halves", report=stop_after(3))
     assert load_checkpoint(tmp_path / "halves", device=CPU)["iteration"] == 3
     assert run(examples, tmp_path / "halves", resume=True) == through
@@ -146,11 +146,11 @@ def test_a_validation_that_was_stopped_is_made_up_for(examples: list[Example], t
 
     def stop_in_the_last(progress: Progress) -> None:
         if progress.iteration == 2 and progress.what.startswith("validating"):
-            raise Stop
+            raise StopError
 
     out = tmp_path / "out"
     options = {"recipe": recipe, "device": CPU, "workers": 0}
-    with pytest.raises(Stop):
+    with pytest.raises(StopError):
         train(examples, examples[:1], out, report=stop_in_the_last, **options)
     assert [iteration for iteration, _ in logged(out, "AP")] == [1]
     train(examples, examples[:1], out, resume=True, **options)

@@ -40,7 +40,7 @@ def metadata_of(path: Path) -> dict[str, str]:
 def rewritten(path: Path, to: Path, **changes: str | None) -> Path:
     """The same tensors under other metadata."""
     with safe_open(path, framework="pt") as file:
-        state = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118
+        state = {key: file.get_tensor(key) for key in list(file.keys())}
     metadata = {key: value for key, value in (metadata_of(path) | changes).items() if value is not None}
     save_file(state, to, metadata=metadata)
     return to
@@ -170,7 +170,7 @@ def test_weights_of_another_network_than_the_file_says_are_refused(
     saved: Path, tmp_path: Path, told: str | None
 ) -> None:
     with safe_open(saved, framework="pt") as file:
-        state = {key: file.get_tensor(key) for key in file.keys()}  # noqa: SIM118
+        state = {key: file.get_tensor(key) for key in list(file.keys())}
     digest = digest_of(state, told or "")
     path = rewritten(saved, tmp_path / "other.safetensors", network=told, digest=digest)
     with pytest.raises(WeightsError, match="another network than it says"):
