@@ -1,6 +1,4 @@
-"""Crops at native scale, turned and brightened, with the caps in them: section 3's augmentations, on the
-fly.
-"""
+"""Crops at native scale, turned and brightened, with their caps: section 3's augmentations, on the fly."""
 
 from __future__ import annotations
 

@@ -15,8 +15,9 @@ from model.recipe import Recipe, RecipeError
 def batches_of(
     examples: Sequence[Example], recipe: Recipe, *, first: int, workers: int, place: Place
 ) -> Iterator[list[Batch]]:
-    """Those of every iteration from ``first`` on, ``recipe.accumulate`` at a time, as far as they are this
-    process's. Raises RecipeError where a batch cannot be shared evenly, DataError where nothing is labelled.
+    """This process's share of every iteration from ``first`` on, ``recipe.accumulate`` batches at a time.
+
+    Raises RecipeError where a batch cannot be shared evenly, DataError where nothing is labelled.
     """
     if recipe.batch % place.world:
         raise RecipeError(f"A batch of {recipe.batch} cannot be shared by {place.world} processes.")

@@ -1,6 +1,4 @@
-"""From photos to the caps in them: the network's forward pass once a photo, then as many readings as are
-wanted.
-"""
+"""From photos to the caps in them: one forward pass a photo, then as many readings as are wanted."""
 
 from __future__ import annotations
 

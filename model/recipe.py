@@ -1,6 +1,4 @@
-"""How a network is trained: the paper's recipe (section 6.1) as the default, read from TOML where it
-differs.
-"""
+"""How a network is trained: by the paper's recipe (section 6.1), or as a TOML file says otherwise."""
 
 from __future__ import annotations
 
@@ -43,9 +41,7 @@ class Recipe(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     backbone_rate: float = 1.0
     """Factor on the rate for the backbone."""
     frozen: int = 1
-    """Stages of the backbone, the stem and that up to C2 first, that stay as ImageNet left them; 0 for
-    none.
-    """
+    """Stages of the backbone, the stem and that up to C2 first, that stay as ImageNet left them."""
     average: float = 0.998
     """Decay of the exponential moving average of the weights, which is what is kept; 0 for none."""
     bf16: bool = False

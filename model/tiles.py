@@ -13,9 +13,7 @@ OVERLAP = 256
 
 
 class Tile(Struct, frozen=True, kw_only=True):
-    """One piece: x, y, width, height; and the part of it whose caps are taken from it, in photo
-    coordinates.
-    """
+    """One piece, and the part of it whose caps are taken from it, in photo coordinates."""
 
     x: int
     y: int

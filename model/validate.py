@@ -1,6 +1,4 @@
-"""How good a network is on labelled photos: its predictions as a COCO document, against the labels as
-another.
-"""
+"""How good a network is on labelled photos: its predictions against the labels, as COCO documents."""
 
 from __future__ import annotations
 

@@ -10,9 +10,7 @@ from torch import Tensor, nn
 from model.network.blocks import conv_norm_relu, start_small
 
 PRIOR = 0.01
-"""Share of cells that hold a cap before anything is learnt, so that the many empty ones do not drown the
-loss.
-"""
+"""Share of cells that hold a cap before anything is learnt: many empty ones do not drown the loss."""
 
 
 class CategoryHead(nn.Module):

@@ -24,9 +24,7 @@ class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
 
     backbone: Backbone = "lite0"
     reduction: int = 2
-    """Photo pixels a side of one network-input pixel; PointRend draws the edge in photo pixels all the
-    same.
-    """
+    """Photo pixels a side of one network-input pixel; PointRend still draws the edge in photo pixels."""
     fpn_channels: int = 128
     head_channels: int = 128
     head_convs: int = 2

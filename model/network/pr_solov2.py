@@ -1,6 +1,4 @@
-"""PR-SOLOv2 (section 4): SOLOv2 with PointRend, from normalised photos to what the losses and the decoder
-read.
-"""
+"""PR-SOLOv2 (section 4): SOLOv2 with PointRend, from photos to what the losses and the decoder read."""
 
 from __future__ import annotations
 
