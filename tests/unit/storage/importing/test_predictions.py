@@ -1,0 +1,57 @@
+"""A file taken as predictions: a run of its own, which nobody has agreed on."""
+
+import numpy as np
+import pytest
+
+from model.geometry import Ellipse
+from storage.documents import load_annotations, load_document, load_predictions, load_run
+from storage.importing import import_paths
+from tests.unit.storage.conftest import TRIANGLE
+
+
+def test_a_file_taken_as_predictions_is_a_run(beds, write_coco, square):
+    file = write_coco(
+        [
+            {"segmentation": square, "score": 0.75, "ellipse": [20, 20, 10, 9, 0], "center": [20.5, 20]},
+            {"segmentation": TRIANGLE},
+        ]
+    )
+    report = import_paths(beds, [file], as_="predictions")
+    assert (report.annotations, report.predictions) == (0, 2)
+    with beds.read() as connection:
+        first, second = load_predictions(connection, 1)
+        run = load_run(connection, report.run)
+        assert load_annotations(connection, 1) == []
+    assert (first.score, first.whole, first.centre) == (0.75, Ellipse(20, 20, 10, 9, 0), (20.5, 20.0))
+    assert (second.score, second.whole) == (1.0, None)
+    assert (run.name, run.kind) == ("labels.json", "import")
+
+
+def test_the_same_predictions_again_add_nothing(beds, write_coco, square):
+    file = write_coco([{"segmentation": square, "score": 0.5}])
+    first = import_paths(beds, [file], as_="predictions")
+    again = import_paths(beds, [file], as_="predictions")
+    assert (again.predictions, again.known, again.run) == (0, 1, first.run)
+
+
+def test_what_cannot_be_a_prediction_is_reported(beds, write_coco, square):
+    file = write_coco(
+        [
+            {"segmentation": square, "score": 0.5},
+            {"segmentation": TRIANGLE, "ignore": True},
+            {"segmentation": TRIANGLE, "score": 50},
+        ]
+    )
+    report = import_paths(beds, [file], as_="predictions")
+    assert report.predictions == 1
+    assert [problem.where for problem in report.problems] == ["annotation 2", "annotation 3"]
+
+
+def test_a_prediction_that_is_only_a_circle_is_seen_as_that_circle(beds, write_coco):
+    import_paths(
+        beds, [write_coco([{"segmentation": [], "circle": [50, 40, 20], "score": 0.5}])], as_="predictions"
+    )
+    with beds.read() as connection:
+        (prediction,) = load_document(connection, 1).predictions
+    points = np.reshape(prediction.visible[0], (-1, 2))
+    assert np.hypot(*(points - (50, 40)).T) == pytest.approx(20)
