@@ -1,0 +1,31 @@
+"""Where to export to, and a project to choose from."""
+
+import pytest
+
+from model.geometry import Circle
+from storage.images import set_status
+from storage.predictions import NewPrediction, add_predictions, add_run
+from storage.records import Cap
+from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, store
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def mixed(beds):
+    """Image 1 annotated, image 2 approved and empty, image 3 predicted by the latest run alone."""
+
+    def predict(connection, name, images):
+        run = add_run(connection, name=name, kind="simulated")
+        for image in images:
+            new = [NewPrediction(visible=[TRIANGLE], score=0.5, whole=Circle(50, 46, 9), centre=(50.0, 46.0))]
+            add_predictions(connection, run_id=run.id, image_id=image, predictions=new)
+
+    store(beds, Cap(visible=[SQUARE]))
+    beds.write(lambda c: predict(c, "early", [1, 2]))
+    beds.write(lambda c: predict(c, "late", [3]))
+    beds.write(lambda c: set_status(c, 2, "approved", user="ann"))
+    return beds
