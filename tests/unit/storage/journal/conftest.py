@@ -1,0 +1,10 @@
+"""A cap to commit."""
+
+import pytest
+
+from storage.records import Cap
+
+
+@pytest.fixture
+def cap(square):
+    return Cap(visible=square)

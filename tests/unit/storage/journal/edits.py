@@ -1,0 +1,22 @@
+"""Edits in a line each, and what the journal has of them."""
+
+import sqlite3
+
+from storage.journal import Derived, commit
+from storage.records import Edit
+
+
+def edit(number="e1", *, annotation="cap", image=1, base=0, cap=None, **derived):
+    return Derived(edit=Edit(id=number, annotation=annotation, image=image, base=base, cap=cap), **derived)
+
+
+def one(project, *args, user="ann", **kwargs):
+    (outcome,) = commit(project, [edit(*args, **kwargs)], user=user)
+    return outcome
+
+
+def journal_rows(project):
+    with sqlite3.connect(project.folder / "project.db") as connection:
+        return connection.execute(
+            "SELECT id, annotation, base, revision, user FROM edit ORDER BY sequence"
+        ).fetchall()

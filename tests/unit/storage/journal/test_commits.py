@@ -1,0 +1,119 @@
+"""What becomes of an accepted edit: stored once, as a whole, and counted."""
+
+from pycocotools import mask
+from sqlalchemy import text
+
+from model.geometry import Circle, Ellipse, Polygon
+from storage.documents import load_annotation, load_annotations, load_version
+from storage.journal import commit
+from storage.predictions import NewPrediction, add_predictions, add_run
+from storage.records import Accepted, Cap
+from tests.unit.storage.conftest import TRIANGLE
+from tests.unit.storage.journal.edits import edit, journal_rows, one
+
+
+def test_an_accepted_edit_is_in_the_file(beds, cap):
+    outcome = one(beds, cap=cap)
+    assert isinstance(outcome, Accepted)
+    assert (outcome.annotation.revision, outcome.annotation.cap, outcome.annotation.deleted) == (
+        1,
+        cap,
+        False,
+    )
+    assert journal_rows(beds) == [("e1", "cap", 0, 1, "ann")]
+
+
+def test_every_field_of_a_cap_is_kept(beds, square):
+    beds.write(
+        lambda c: add_predictions(
+            c,
+            run_id=add_run(c, name="r", kind="simulated").id,
+            image_id=1,
+            predictions=[NewPrediction(visible=square, score=0.5)],
+        )
+    )
+    marks = (Circle(20.5, 20.25, 9.75), Ellipse(20, 20, 10, 5, 179.5), Polygon(TRIANGLE[0]))
+    for number, mark in enumerate(marks):
+        cap = Cap(visible=square, mark=mark, ignored=True, doubtful=True, order=-3, prediction=1)
+        outcome = one(beds, f"e{number}", annotation=f"cap{number}", cap=cap)
+        assert isinstance(outcome, Accepted)
+        with beds.read() as connection:
+            stored = load_annotation(connection, f"cap{number}")
+        assert stored == outcome.annotation
+        assert stored.cap == cap
+
+
+def test_what_was_derived_is_stored_with_the_edit_and_replaced_by_the_next(beds, cap):
+    first = one(beds, cap=cap, whole=Circle(20, 20, 10), centre=(20.0, 20.0))
+    assert (first.annotation.whole, first.annotation.centre) == (Circle(20, 20, 10), (20.0, 20.0))
+    second = one(beds, "e2", base=1, cap=cap)
+    assert (second.annotation.whole, second.annotation.centre) == (None, None)
+
+
+def test_an_edit_sent_twice_is_stored_once(beds, cap):
+    assert one(beds, cap=cap) == one(beds, cap=cap)
+    assert len(journal_rows(beds)) == 1
+
+
+def test_an_edit_sent_twice_in_one_change_set_is_stored_once(beds, cap):
+    first, second = commit(beds, [edit(cap=cap), edit(cap=cap)], user="ann")
+    assert first == second
+    assert len(journal_rows(beds)) == 1
+
+
+def test_an_edit_sent_again_after_others_is_accepted_with_the_annotation_as_it_is_now(beds, cap):
+    one(beds, cap=cap)
+    now = one(beds, "e2", base=1, cap=Cap(visible=TRIANGLE), user="bob")
+    again = one(beds, cap=cap)
+    assert isinstance(again, Accepted)
+    assert again.annotation == now.annotation
+    assert len(journal_rows(beds)) == 2
+
+
+def test_deleting_keeps_the_annotation_out_of_sight_and_undo_brings_it_back(beds, cap):
+    one(beds, cap=cap)
+    deleted = one(beds, "e2", base=1, cap=None)
+    assert (deleted.annotation.deleted, deleted.annotation.revision) == (True, 2)
+    with beds.read() as connection:
+        assert load_annotations(connection, 1) == []
+    back = one(beds, "e3", base=2, cap=cap)
+    assert (back.annotation.deleted, back.annotation.revision, back.annotation.cap) == (False, 3, cap)
+
+
+def test_rejecting_a_prediction_is_made_and_deleted_in_one_set(beds, cap):
+    outcomes = commit(beds, [edit("a", cap=cap), edit("b", base=1, cap=None)], user="ann")
+    assert [outcome.annotation.revision for outcome in outcomes] == [1, 2]
+    assert outcomes[1].annotation.deleted
+
+
+def test_a_self_crossing_outline_is_stored_repaired_and_covers_the_same_pixels(beds):
+    crossing = [[10.0, 10.0, 40.0, 40.0, 40.0, 10.0, 10.0, 45.0]]
+    stored = one(beds, cap=Cap(visible=crossing)).annotation.cap.visible
+    assert stored != crossing
+
+    def covered(outline):
+        return mask.decode(mask.merge(mask.frPyObjects(outline, 80, 100)))
+
+    assert (covered(stored) == covered(crossing)).all()
+
+
+def test_the_counters_of_the_image_follow(beds, cap):
+    def counters():
+        with beds.read() as connection:
+            row = connection.execute(text("SELECT caps, ignored FROM image WHERE id = 1")).one()
+            return tuple(row), load_version(connection, 1)
+
+    (counts, version) = counters()
+    assert counts == (0, 0)
+    expected = [
+        ((1, 0), cap),
+        ((0, 1), Cap(visible=cap.visible, ignored=True)),
+        ((0, 0), None),
+        ((1, 0), cap),
+    ]
+    for base, (wanted, after) in enumerate(expected):
+        one(beds, f"e{base}", base=base, cap=after)
+        (counts, later) = counters()
+        assert counts == wanted
+        assert later > version
+        version = later
