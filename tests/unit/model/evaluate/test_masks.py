@@ -2,41 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import math
-from typing import Any
-
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.documents import CapRecord, DocumentError, Page
-from model.errors import FairyringError
-from model.evaluate.masks import MaskScores, evaluate_masks, score_masks
-from model.raster import rle_of_mask
-
-WIDTH, HEIGHT = 400, 200
-
-
-def box(x: int, y: int, w: int, h: int) -> dict[str, Any]:
-    mask = np.zeros((HEIGHT, WIDTH), np.uint8)
-    mask[y : y + h, x : x + w] = 1
-    return rle_of_mask(mask)
-
-
-def cap(x: int, y: int, w: int = 40, h: int = 40, **other: Any) -> CapRecord:
-    """40 × 40 unless told otherwise: the circle of that area measures 45 px."""
-    return CapRecord(rle=box(x, y, w, h), **other)
-
-
-def page(truths: list[CapRecord], predictions: list[CapRecord], **other: Any) -> Page:
-    named = {"file_name": "a.png", **other}
-    return Page(width=WIDTH, height=HEIGHT, truths=truths, predictions=predictions, **named)
-
-
-def scores(truths: list[CapRecord], predictions: list[CapRecord]) -> MaskScores:
-    return score_masks([page(truths, predictions)])
+from model.documents import CapRecord
+from tests.unit.model.evaluate.squares import cap, scores
 
 
 def test_the_figures_of_four_caps_are_those_worked_out_by_hand() -> None:
@@ -137,56 +108,6 @@ def test_a_prediction_over_two_caps_that_are_found_too_leaves_neither_strictly_f
     assert (found.s50, found.s50_strict) == (1, 0)
 
 
-def test_caps_under_30_px_count_apart_from_the_success_rate() -> None:
-    # The circle of 26 × 26 px measures 29.3 px, of 27 × 27 px 30.5.
-    truths = [cap(0, 0), cap(100, 0, 26, 26), cap(200, 0, 26, 26), cap(300, 0, 27, 27)]
-
-    found = scores(truths, [cap(0, 0), cap(100, 0, 26, 26)])
-
-    assert (found.s50, found.s75, found.s50_small) == (0.5, 0.5, 0.5)
-    assert (found.p, found.r) == (1, 0.5)
-    assert (found.counts.small, found.groups["size"]["under_30_px"].count) == (2, 2)
-    assert (found.groups["size"]["s"].count, found.groups["size"]["m"].count) == (1, 1)
-
-
-def test_a_large_cap_of_which_little_is_seen_is_not_small() -> None:
-    seen = scores([cap(0, 0, 20, 20, diameter=30.0)], [])
-    assert (seen.s50, seen.s50_small) == (0, None)
-
-    small = scores([cap(0, 0, 40, 40, diameter=29.9)], [])
-    assert (small.s50, small.s50_small) == (None, 0)
-
-
-def test_sizes_are_coco_s_classes_by_visible_area() -> None:
-    truths = [cap(0, 0, 32, 31), cap(50, 0, 32, 32), cap(100, 0, 96, 95), cap(200, 0, 96, 96)]
-
-    sizes = scores(truths, [truths[1], truths[3]]).groups["size"]
-
-    assert [(sizes[name].count, sizes[name].s50) for name in "sml"] == [(1, 0), (2, 0.5), (1, 1)]
-    assert sizes["under_30_px"].count == 0
-    assert sizes["l"].ap == 1
-
-
-def test_light_and_form_are_those_of_the_images_that_state_them() -> None:
-    found = score_masks(
-        [
-            page([cap(0, 0), cap(100, 0)], [cap(0, 0)], light="top", form="a"),
-            page([cap(0, 0)], [cap(0, 0), cap(5, 0)], light="top", form="b", file_name="b.png"),
-            page([cap(0, 0), cap(100, 0, 20, 20)], [], light="dark", file_name="c.png"),
-        ]
-    )
-
-    groups = found.groups
-    assert list(groups) == ["light", "form", "size"]
-    assert set(groups["light"]) == {"top", "dark"}
-    assert set(groups["form"]) == {"a", "b"}
-    top, dark = groups["light"]["top"], groups["light"]["dark"]
-    assert (top.count, top.s50, top.s75, top.s50_strict) == (3, 2 / 3, 2 / 3, 1 / 3)
-    # Perfect up to recall 2/3, then nothing.
-    assert top.ap == pytest.approx(67 / 101)
-    assert (dark.count, dark.s50, dark.ap) == (1, 0, 0)
-
-
 def test_where_nothing_is_predicted_caps_are_missed_and_precision_is_unknown() -> None:
     found = scores([cap(0, 0)], [])
 
@@ -244,98 +165,3 @@ def test_figures_hold_together(
         assert found.s75 <= found.s50
     if found.p and found.r:
         assert found.best_f1.f1 >= 2 * found.p * found.r / (found.p + found.r) - 1e-12
-
-
-# Documents
-
-
-def document(*annotations: dict[str, Any], **image: Any) -> dict[str, Any]:
-    known = {"id": 7, "file_name": "beds/a.png", "width": WIDTH, "height": HEIGHT, **image}
-    return {
-        "images": [known],
-        "annotations": [{"id": i, "image_id": known["id"], **a} for i, a in enumerate(annotations, start=1)],
-    }
-
-
-def square(x: float, y: float, side: float = 40) -> list[list[float]]:
-    return [[x, y, x + side, y, x + side, y + side, x, y + side]]
-
-
-def test_the_command_s_figures_have_the_agreed_keys() -> None:
-    truth = document({"segmentation": square(0, 0)}, light="side", form="c")
-
-    figures = json.loads(json.dumps(evaluate_masks(document({"segmentation": square(0, 0)}, id=1), truth)))
-
-    contract = {"AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "groups"}
-    assert set(figures) == contract | {"S50_small", "best_f1", "score", "counts"}
-    assert figures["groups"]["light"] == {
-        "side": {"AP": 1.0, "S50": 1.0, "S75": 1.0, "S50_strict": 1.0, "count": 1}
-    }
-    assert figures["best_f1"] == {"F1": 1.0, "score": 1.0, "P": 1.0, "R": 1.0}
-    assert figures["score"] == 0.5
-
-
-def test_polygons_and_run_lengths_are_the_same_masks_and_a_missing_score_is_1() -> None:
-    truth = document({"segmentation": square(0, 0)}, {"segmentation": square(100, 0), "ignore": True})
-    predicted = [
-        {"image_id": 7, "segmentation": box(0, 0, 40, 40)},
-        {"image_id": 7, "segmentation": box(100, 0, 40, 40), "score": None},
-        {"image_id": 8, "segmentation": box(0, 0, 40, 40), "score": 0.9},
-    ]
-
-    figures = evaluate_masks(predicted, truth)
-
-    assert (figures["AP"], figures["P"], figures["S50"], figures["best_f1"]["score"]) == (1, 1, 1, 1)
-    assert figures["counts"]["dropped"] == 1
-    # The image that only the predictions know is not looked at.
-    assert figures["counts"]["predictions"] == 2
-
-
-def test_all_categories_are_one_class() -> None:
-    truth = document({"segmentation": square(0, 0), "category_id": 1})
-    predicted = document({"segmentation": square(0, 0), "category_id": 5, "score": 0.9})
-
-    assert evaluate_masks(predicted, truth)["AP"] == 1
-
-
-def test_the_whole_cap_of_a_truth_file_decides_whether_it_is_small() -> None:
-    hidden = document({"segmentation": square(0, 0, 20), "ellipse": [30, 30, 25, 16, 0]})
-    assert evaluate_masks([], hidden)["S50"] == 0
-
-    # 2 √(16 · 14) = 29.9 px; the box is not asked.
-    small = document(
-        {"segmentation": square(0, 0, 20), "ellipse": [10, 10, 16, 14, 0], "bbox": [0, 0, 90, 90]}
-    )
-    assert (evaluate_masks([], small)["S50"], evaluate_masks([], small)["S50_small"]) == (None, 0)
-    unstated = document({"segmentation": square(0, 0, 26), "bbox": [0, 0, 90, 90]})
-    assert evaluate_masks([], unstated)["S50_small"] == 0
-
-
-@pytest.mark.parametrize("score", [math.nan, math.inf, "high", True, 10**400])
-def test_a_score_that_is_no_finite_number_is_refused_with_its_place(score: Any) -> None:
-    predicted = document({"segmentation": square(0, 0), "score": score})
-
-    with pytest.raises(DocumentError, match=r"Annotation 1 of a\.png: Its score is not a finite") as refused:
-        evaluate_masks(predicted, document({"segmentation": square(0, 0)}))
-    assert refused.value.side == "predicted"
-
-
-def test_a_score_in_memory_is_checked_too() -> None:
-    with pytest.raises(FairyringError, match=r"a\.png has a score"):
-        scores([cap(0, 0)], [cap(0, 0, score=math.nan)])
-
-
-def test_the_side_that_is_wrong_is_told() -> None:
-    good, broken = document({"segmentation": square(0, 0)}), document({"segmentation": [[1, 2]]})
-
-    with pytest.raises(DocumentError) as refused:
-        evaluate_masks(good, broken)
-    assert refused.value.side == "truth"
-    with pytest.raises(DocumentError) as refused:
-        evaluate_masks(good, document(width=9))
-    assert refused.value.side is None
-
-
-def test_no_image_is_nothing_to_evaluate() -> None:
-    with pytest.raises(FairyringError, match="at least one"):
-        evaluate_masks([], {"images": [], "annotations": []})
