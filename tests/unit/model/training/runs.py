@@ -1,0 +1,36 @@
+"""Short trainings and what their logs say."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from model import train_log
+from model.data import Example
+from model.network.weights import load_weights
+from model.recipe import Recipe
+from model.train import FINAL, train
+from tests.unit.model.discs import SHORT
+
+CPU = torch.device("cpu")
+
+
+def run(examples: list[Example], out: Path, recipe: Recipe = SHORT, **options: Any) -> str:
+    """Trains and returns the digest of the weights."""
+    result = train(examples, [], out, recipe=recipe, device=CPU, workers=0, **options)
+    assert result.weights == out / FINAL
+    return load_weights(result.weights).digest
+
+
+def logged(out: Path, key: str) -> list[tuple[int, float]]:
+    """Every iteration whose line has the key, and what it says."""
+    return [(entry["iteration"], entry[key]) for entry in train_log.read(out) if key in entry]
+
+
+def environment(**more: str) -> dict[str, str]:
+    """Of a training in a process of its own."""
+    root = Path(__file__).parents[4]
+    return {**os.environ, "PYTHONPATH": str(root), "OMP_NUM_THREADS": "1", **more}
