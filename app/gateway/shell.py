@@ -29,6 +29,7 @@ HEAD = """
     <link rel="icon" type="image/svg+xml" href="/static/icon.svg">
     <link rel="stylesheet" href="/static/style.css">
     <link rel="stylesheet" href="/static/panel.css">
+    <link rel="stylesheet" href="/static/overview.css">
     <script type="module" src="/static/editor/main.js"></script>
   </head>"""
 COMING_BACK = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>Fairyring</title>'
