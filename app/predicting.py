@@ -21,7 +21,6 @@ from model.device import device_of
 from model.errors import FairyringError
 from model.geometry import GeometryError, Outline
 from model.network.config import SIZES, NetworkConfig
-from model.network.decode import DecodeConfig
 from model.network.weights import load_weights
 from model.predict import PredictConfig, Predictor
 from model.raster import check_outline
@@ -80,14 +79,18 @@ def network_of(weights: Path, *, device: str = "auto", least_score: float = LEAS
 def _network_of(weights: Path, _changed: int, device: str, least_score: float) -> Network:
     on = device_of(device)
     loaded = load_weights(weights)
-    decode = DecodeConfig(least_score=least_score)
-    config = loaded.network.config
-    predictor = Predictor(loaded.network, device=on, settings=PredictConfig(decode=decode))
+    config, settings = loaded.network.config, PredictConfig(least_score=least_score)
+    predictor = Predictor(loaded.network, device=on, settings=settings)
     return Network(
         predictor=predictor,
         name=f"{weights.stem} {loaded.digest[:8]}",
         digest=loaded.digest,
-        settings={"network": _size_of(config), "decode": msgspec.to_builtins(decode)},
+        settings={
+            "network": _size_of(config),
+            "decode": msgspec.to_builtins(settings.decode),
+            "finest": settings.finest,
+            "least_score": least_score,
+        },
     )
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
-from msgspec import Struct, field
+from msgspec import Struct, field, structs
 from numpy.typing import NDArray
 
+from model.calibration import Calibration, calibrated, uncalibrated
 from model.geometry import Outline
 from model.network.decode import DecodeConfig, Instances, decode
 from model.network.fold import fold_batch_norms
@@ -30,6 +31,8 @@ class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """How photos are read."""
 
     decode: DecodeConfig = field(default_factory=DecodeConfig)
+    least_score: float = 0.0
+    """Of a detection that is told, as it is told: calibrated."""
     finest: int = 2
     """Photo pixels a side of the finest points that PointRend decides on: 1, 2, 4 …"""
     batch: int = 1
@@ -41,7 +44,7 @@ class Detection:
     """One cap as the network sees it."""
 
     score: float
-    """0 to 1."""
+    """How likely it is to be a cap, and this one: 0 to 1."""
     outline: Outline
     """Of what is visible, between the pixels."""
     rle: Rle
@@ -58,6 +61,16 @@ class Seen:
     """A piece of it, what the network said of a batch, and the piece's place in the batch."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """The instances of a piece of a photo, drawn at photo pixels."""
+
+    tile: Tile
+    scores: list[float]
+    """Raw, falling."""
+    windows: list[Window]
+
+
 class Predictor:
     """A network made ready for photos on one device."""
 
@@ -69,6 +82,7 @@ class Predictor:
         self.network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
         self.device = device
         self.settings = settings or PredictConfig()
+        self.calibration = Calibration(*network.calibration.tolist())
 
     @torch.inference_mode()
     def see(self, photos: Sequence[NDArray[np.uint8]]) -> list[Seen]:
@@ -93,16 +107,43 @@ class Predictor:
                     seen[nth].pieces.append((tile, outputs, place))
         return seen
 
-    @torch.inference_mode()
     def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
         """The caps of a photo, in falling order of score."""
+        return self.tell(seen, self.draw(seen, settings))
+
+    @torch.inference_mode()
+    def draw(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Piece]:
+        """The instances of each piece of a photo; the first half of ``read``."""
+        settings = settings or self.settings.decode
+        least = max(settings.least_score, uncalibrated(self.settings.least_score, self.calibration))
+        settings = structs.replace(settings, least_score=least)
+        config = self.network.config
+        pieces = []
+        for tile, outputs, place in seen.pieces:
+            instances = _distinct(decode(outputs, place, config, settings))
+            drawn = draw(
+                self.network.point_head,
+                outputs.point_maps,
+                instances,
+                image=place,
+                mask_stride=config.mask_stride,
+                finest=self.settings.finest,
+            )
+            windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
+            pieces.append(Piece(tile=tile, scores=instances.scores.tolist(), windows=windows))
+        return pieces
+
+    def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
+        """Whose pixel is whose, and where the outlines run; the second half of ``read``."""
         found = [
             (detection, nth)
-            for nth, (tile, outputs, place) in enumerate(seen.pieces)
-            for detection in self._of_piece(seen, tile, outputs, place, settings or self.settings.decode)
+            for nth, piece in enumerate(pieces)
+            for detection in _outlined(piece, width=seen.width, height=seen.height)
         ]
         found.sort(key=lambda one: -one[0].score)
-        return _without_repeats(found) if len(seen.pieces) > 1 else [detection for detection, _ in found]
+        kept = _without_repeats(found) if len(pieces) > 1 else [detection for detection, _ in found]
+        scores = calibrated(np.array([detection.score for detection in kept]), self.calibration)
+        return [replace(one, score=score) for one, score in zip(kept, scores.tolist(), strict=True)]
 
     def detect(self, photo: NDArray[np.uint8]) -> list[Detection]:
         """``see`` and ``read`` of one photo."""
@@ -112,29 +153,19 @@ class Predictor:
         multiple = self.network.config.multiple
         return -(-tile.height // multiple) * multiple, -(-tile.width // multiple) * multiple
 
-    def _of_piece(
-        self, seen: Seen, tile: Tile, outputs: Outputs, place: int, settings: DecodeConfig
-    ) -> Iterator[Detection]:
-        instances = _distinct(decode(outputs, place, self.network.config, settings))
-        drawn = draw(
-            self.network.point_head,
-            outputs.point_maps,
-            instances,
-            image=place,
-            mask_stride=self.network.config.mask_stride,
-            finest=self.settings.finest,
-        )
-        scores = instances.scores.tolist()
-        windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
-        settled = settle(windows, scores, width=tile.width, height=tile.height)
-        for score, window in zip(scores, settled, strict=True):
-            outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
-            if not outline:
-                continue
-            points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
-            if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist(), slack=SLACK):
-                rle = rle_of_outline(outline, height=seen.height, width=seen.width)
-                yield Detection(score=score, outline=outline, rle=rle)
+
+def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
+    """The caps that a piece tells of a photo of so many pixels, with raw scores."""
+    tile = piece.tile
+    settled = settle(piece.windows, piece.scores, width=tile.width, height=tile.height)
+    for score, window in zip(piece.scores, settled, strict=True):
+        outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
+        if not outline:
+            continue
+        points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
+        if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist(), slack=SLACK):
+            rle = rle_of_outline(outline, height=height, width=width)
+            yield Detection(score=score, outline=outline, rle=rle)
 
 
 def _distinct(instances: Instances) -> Instances:

@@ -6,8 +6,8 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-SIDE = 768
-"""Photo pixels of a piece: kernels learnt on crops tell caps apart that lie no further from each other."""
+SIDE = 1280
+"""Photo pixels of a piece: as wide as the photos that the network is made for."""
 OVERLAP = 256
 """Of two pieces; caps up to this diameter are never cut."""
 

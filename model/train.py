@@ -251,8 +251,9 @@ def _check(run: Run, plan: _Plan, losses: dict[str, float]) -> None:
     def say(_done: int, _total: int, what: str) -> None:
         plan.report(_progress(run, plan, losses, what))
 
-    figures = validate(run.kept, plan.checks, device=plan.place.device, progress=say)
-    found = {name: value for name, value in figures.items() if isinstance(value, float)}
+    validation = validate(run.kept, plan.checks, device=plan.place.device, progress=say)
+    run.kept.calibration.copy_(torch.tensor(validation.calibration))
+    found = {name: value for name, value in validation.figures.items() if isinstance(value, float)}
     train_log.append(plan.out, [{"iteration": run.iteration, **found}])
     run.checked = run.iteration
     if not run.best or found["AP"] > run.best["AP"]:

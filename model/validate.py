@@ -4,17 +4,32 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import torch
 
+from model.calibration import Calibration, calibrated, fit_calibration
 from model.data import Example, read_rgb
+from model.documents import pages_of
 from model.evaluate.masks import evaluate_masks
+from model.evaluate.outcomes import joined, outcomes_of_page
 from model.network.pr_solov2 import PRSOLOv2
 from model.predict import Detection, PredictConfig, Predictor
 from model.raster import rle_of_outline
 
 Progress = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validation:
+    """What was found out about a network."""
+
+    figures: dict[str, Any]
+    """Those of ``evaluate masks``, of calibrated scores."""
+    calibration: Calibration
+    """By which its scores say best, on these examples, how often it is right at IoU .5."""
 
 
 def validate(
@@ -24,14 +39,23 @@ def validate(
     device: torch.device,
     settings: PredictConfig | None = None,
     progress: Progress = lambda *_: None,
-) -> dict[str, Any]:
-    """The figures of ``evaluate masks`` for a copy of the network, which is left as it is."""
-    predictor = Predictor(copy.deepcopy(network), device=device, settings=settings)
+) -> Validation:
+    """Of a copy of the network, which is left as it is; its own calibration plays no part."""
+    raw = copy.deepcopy(network)
+    raw.calibration.copy_(torch.tensor(Calibration()))
+    predictor = Predictor(raw, device=device, settings=settings)
     found = []
     for nth, example in enumerate(examples):
         progress(nth, len(examples), f"validating on {example.path.name}")
         found.append(predictor.detect(read_rgb(example.path)))
-    return evaluate_masks(document_of_detections(examples, found), document_of_labels(examples))
+    labels, said = document_of_labels(examples), document_of_detections(examples, found)
+    pages = pages_of(said, labels, masks=True, centres=False)
+    outcomes = joined([outcomes_of_page(page) for page in pages])
+    counted = ~outcomes.dropped
+    calibration = fit_calibration(outcomes.score[counted], outcomes.right[counted])
+    for cap in said["annotations"]:
+        cap["score"] = float(calibrated(np.array(cap["score"]), calibration))
+    return Validation(figures=evaluate_masks(said, labels), calibration=calibration)
 
 
 def document_of_labels(examples: Sequence[Example]) -> dict[str, Any]:

@@ -93,8 +93,10 @@ def cost(
     """
     from app.bench.network.cost import cost_rows
     from app.bench.network.sets import rendered
+    from app.predicting import network_of
+    from model.shipped import SHIPPED
 
-    predictor = _predictor(weights, device)
+    predictor = network_of(weights or SHIPPED, device=device).predictor
     with _folder(beds) as folder, shown_on_stderr() as progress:
         photos = rendered("paper", folder, count=1, progress=progress)
         rows = cost_rows(predictor, photos)

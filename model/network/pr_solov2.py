@@ -42,6 +42,8 @@ class PRSOLOv2(nn.Module):
 
     mean: Tensor
     std: Tensor
+    calibration: Tensor
+    """(2,): slope and shift of ``model.calibration``, by which scores become probabilities."""
 
     def __init__(self, config: NetworkConfig) -> None:
         super().__init__()
@@ -64,6 +66,7 @@ class PRSOLOv2(nn.Module):
         self.sharpen = SemanticPointRend(config) if config.point_rend == "semantic" else None
         mean, std = normalisation_of(config.backbone)
         self.register_buffer("mean", torch.tensor(mean).view(1, 3, 1, 1), persistent=False)
+        self.register_buffer("calibration", torch.tensor([1.0, 0.0]))
         self.register_buffer("std", torch.tensor(std).view(1, 3, 1, 1), persistent=False)
 
     def forward(self, photos: Tensor, origins: Tensor) -> Outputs:

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from app.bench.network.sets import LabelledPhotos
 from model.contour.reconstruct import reconstruct
-from model.network.decode import decode
-from model.network.refine import draw
 from model.predict import Detection, Predictor
 from storage.images import find_image
 from storage.importing import import_paths
@@ -25,7 +23,6 @@ from storage.predictions import NewPrediction, add_predictions, add_run
 from storage.project import Project, create_project
 
 WARM_UP, ROUNDS = 2, 7
-CERTAIN = 0.3
 
 
 def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, Any]]:
@@ -33,23 +30,20 @@ def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, An
     _, photo = next(photos.images())
     device = predictor.device
     reference = timed(lambda: _backbone_alone(predictor, photo), device)
-    seen = predictor.see([photo])[0]
-    found = [cap for cap in predictor.read(seen) if cap.score >= CERTAIN]
-    stages = [
-        ("network: features, heads", lambda: predictor.see([photo])),
-        ("instances and their edges", lambda: _masks(predictor, photo)),
-        ("outlines, and whose pixel it is", lambda: predictor.read(seen)),
-        ("whole outlines and centres", lambda: _centres(found, photo)),
-    ]
-    times = {name: timed(work, device) for name, work in stages}
-    # The stages overlap: the second runs the first again, and the third the second's part after it.
-    forward, upto_masks = times["network: features, heads"], times["instances and their edges"]
-    times["instances and their edges"] = upto_masks - forward
-    times["outlines, and whose pixel it is"] -= upto_masks - forward
-    times["storing"] = _storing(photos, found)
+    (seen,) = predictor.see([photo])
+    pieces = predictor.draw(seen)
+    found = predictor.tell(seen, pieces)
+    times = {
+        "network: features, heads": timed(lambda: predictor.see([photo]), device),
+        "instances and their edges": timed(lambda: predictor.draw(seen), device),
+        "outlines, and whose pixel it is": timed(lambda: predictor.tell(seen, pieces), device),
+        "whole outlines and centres": timed(lambda: _centres(found, photo), device),
+        "storing": _storing(photos, found),
+    }
+    masks = times["network: features, heads"] + times["instances and their edges"]
     total = sum(times.values())
     rows = [_row(name, seconds, reference, len(found)) for name, seconds in times.items()]
-    rows.append(_row("decoded photo to masks", upto_masks, reference, len(found)))
+    rows.append(_row("decoded photo to masks", masks, reference, len(found)))
     rows.append(_row("decoded photo to stored centres", total, reference, len(found)))
     rows.append(_row("reference: the backbone alone, full resolution", reference, reference, len(found)))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
@@ -90,25 +84,6 @@ def _backbone_alone(predictor: Predictor, photo: NDArray[np.uint8]) -> object:
     height, width = (side // 32 * 32 for side in photo.shape[:2])
     pixels = torch.from_numpy(photo[:height, :width].copy()).to(predictor.device).permute(2, 0, 1)[None]
     return predictor.network.backbone(pixels.float().contiguous(memory_format=torch.channels_last))
-
-
-@torch.inference_mode()
-def _masks(predictor: Predictor, photo: NDArray[np.uint8]) -> object:
-    seen = predictor.see([photo])[0]
-    config = predictor.network.config
-    drawn = []
-    for _, outputs, place in seen.pieces:
-        instances = decode(outputs, place, config, predictor.settings.decode)
-        head, maps = predictor.network.point_head, outputs.point_maps
-        drawn += draw(
-            head,
-            maps,
-            instances,
-            image=place,
-            mask_stride=config.mask_stride,
-            finest=predictor.settings.finest,
-        )
-    return drawn
 
 
 def _centres(found: list[Detection], photo: NDArray[np.uint8]) -> object:

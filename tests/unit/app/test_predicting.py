@@ -75,7 +75,7 @@ def test_predict_stores_outlines_scores_and_centres_with_the_weights_that_said_s
     for document in documents:
         assert document.run is not None
         assert (document.run.kind, document.run.weights) == ("network", network.digest)
-        assert document.run.settings["decode"]["least_score"] == 0.3
+        assert document.run.settings["least_score"] == 0.3
         assert document.predictions
         assert all(0.3 <= p.score <= 1 and p.visible for p in document.predictions)
     told = [p for document in documents for p in document.predictions if p.whole is not None]

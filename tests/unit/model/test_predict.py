@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pycocotools import mask as pycocotools_mask
 
 from model import tiles
+from model.calibration import Calibration, calibrated
 from model.data import read_rgb
 from model.geometry import area_of_outline, bounds_of_outline
 from model.network.decode import DecodeConfig, Instances
@@ -94,8 +95,21 @@ def test_photos_seen_together_are_read_as_if_seen_alone(predictor: Predictor, le
 def test_what_was_seen_is_read_with_other_settings(predictor: Predictor, learnt: Learnt) -> None:
     (seen,) = predictor.see([read_rgb(learnt.examples[0].path)])
     assert len(predictor.read(seen, DecodeConfig(most=2))) == 2
-    strict = predictor.read(seen, DecodeConfig(least_score=SURE))
-    assert len(strict) == len(sure(predictor.read(seen)))
+
+
+def test_scores_are_calibrated_and_those_too_low_are_not_told(learnt: Learnt) -> None:
+    photo = read_rgb(learnt.examples[0].path)
+    line = Calibration(1.5, -0.4)
+
+    def detected(calibration: Calibration, least: float) -> list[float]:
+        network = load_weights(learnt.result.weights).network
+        network.calibration.copy_(torch.tensor(calibration))
+        settings = PredictConfig(least_score=least)
+        return [one.score for one in Predictor(network, device=CPU, settings=settings).detect(photo)]
+
+    expected = calibrated(np.array(detected(Calibration(), 0.0)), line)
+    assert detected(line, 0.0) == pytest.approx(expected.tolist(), abs=1e-5)
+    assert detected(line, SURE) == pytest.approx(expected[expected >= SURE].tolist(), abs=1e-5)
 
 
 @pytest.fixture

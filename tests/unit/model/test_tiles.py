@@ -57,11 +57,12 @@ def test_a_small_photo_is_one_piece() -> None:
     assert tile.owns(-5.0, 1e9)
 
 
-def test_a_photo_of_the_usual_size_is_two_pieces_side_by_side() -> None:
-    left, right = tiles_of(1280, 720)
-    assert (left.x, left.y, left.width, left.height) == (0, 0, 768, 720)
-    assert (right.x, right.y, right.width, right.height) == (512, 0, 768, 720)
-    assert left.own[2] == right.own[0] == 640
+def test_a_photo_of_the_usual_size_is_one_piece_and_one_twice_as_wide_three() -> None:
+    assert len(tiles_of(1280, 720)) == 1
+    left, middle, right = tiles_of(2560, 720)
+    assert (left.x, left.y, left.width, left.height) == (0, 0, 1280, 720)
+    assert (middle.x, right.x) == (640, 1280)
+    assert left.own[2] == middle.own[0] == 960
 
 
 def test_no_more_tiles_than_needed() -> None:
@@ -69,12 +70,12 @@ def test_no_more_tiles_than_needed() -> None:
     assert len(tiles_of(2 * SIDE - OVERLAP, 100)) == 2
     assert len(tiles_of(2 * SIDE - OVERLAP + 1, 100)) == 3
     assert [tile.own for tile in tiles_of(2 * SIDE - OVERLAP, 100)] == [
-        (float("-inf"), float("-inf"), 640.0, float("inf")),
-        (640.0, float("-inf"), float("inf"), float("inf")),
+        (float("-inf"), float("-inf"), 1152.0, float("inf")),
+        (1152.0, float("-inf"), float("inf"), float("inf")),
     ]
 
 
 def test_slack_widens_what_is_owned_on_every_side() -> None:
     left, right = tiles_of(2 * SIDE - OVERLAP, 100)
-    assert [left.owns(x, 50, slack=8.0) for x in (600, 647.9, 648)] == [True, True, False]
-    assert [right.owns(x, 50, slack=8.0) for x in (631.9, 632, 1200)] == [False, True, True]
+    assert [left.owns(x, 50, slack=8.0) for x in (1100, 1159.9, 1160)] == [True, True, False]
+    assert [right.owns(x, 50, slack=8.0) for x in (1143.9, 1144, 2200)] == [False, True, True]

@@ -8,6 +8,7 @@ import pytest
 import torch
 from pycocotools import mask as pycocotools_mask
 
+from model.calibration import Calibration
 from model.data import Example, read_rgb
 from model.network.weights import load_weights
 from model.predict import Predictor
@@ -23,13 +24,20 @@ def test_validation_leaves_the_network_as_it_is(learnt: Learnt) -> None:
     network = load_weights(learnt.result.weights).network.train()
     before = {key: value.clone() for key, value in network.state_dict().items()}
     said: list[tuple[int, int, str]] = []
-    figures = validate(network, learnt.examples, device=CPU, progress=lambda *told: said.append(told))
+    figures = validate(network, learnt.examples, device=CPU, progress=lambda *told: said.append(told)).figures
     assert figures["AP"] > 0.95
     assert figures["S50"] == 1
     assert network.training
     assert network.state_dict().keys() == before.keys()
     assert all(torch.equal(value, before[key]) for key, value in network.state_dict().items())
     assert said == [(0, 2, "validating on discs-0.png"), (1, 2, "validating on discs-1.png")]
+
+
+def test_trained_weights_carry_the_calibration_that_fits_them(learnt: Learnt) -> None:
+    network = load_weights(learnt.result.weights).network
+    expected = validate(network, learnt.examples, device=CPU).calibration
+    assert expected != Calibration()
+    assert network.calibration.tolist() == pytest.approx(list(expected), rel=0.05)
 
 
 def test_labels_and_detections_become_documents(learnt: Learnt) -> None:

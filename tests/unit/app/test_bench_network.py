@@ -1,0 +1,106 @@
+"""`fairyring bench network`: every table, on as few and as small beds as tell whether it works."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import pytest
+import torch
+from typer.testing import CliRunner
+
+from app.bench.network import sets
+from app.cli import app
+from model.scene.presets import PRESETS
+from model.scene.settings import Growth, Settings
+from tests.unit.app.sighted import write_weights
+
+SMALL = Settings(width=320, height=192, growth=Growth(caps=(12, 14), diameters=(16, 24, 36, 48, 60)))
+Table = Callable[..., list[dict[str, Any]]]
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory: pytest.TempPathFactory) -> Table:
+    """Runs one of the commands on a test bed a preset, kept between calls, and returns its rows."""
+    folder = tmp_path_factory.mktemp("bench")
+    write_weights(folder / "small.safetensors")
+
+    def rows(name: str, *options: str | Path) -> list[dict[str, Any]]:
+        arguments = ["bench", "network", name, "--device", "cpu", "--json", *map(str, options)]
+        if name != "ablation":
+            arguments += ["--beds", str(folder / "beds"), "--weights", str(folder / "small.safetensors")]
+        result = CliRunner().invoke(app, arguments, catch_exceptions=False)
+        assert result.exit_code == 0, result.output
+        return json.loads(result.stdout)
+
+    return rows
+
+
+@pytest.fixture(autouse=True)
+def small_beds(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("paper", "farm", "default"):
+        monkeypatch.setitem(PRESETS, name, SMALL)
+    monkeypatch.setattr(sets, "TEST_BEDS", {"paper": (2, 3003), "farm": (1, 3001)})
+
+
+def test_success_counts_every_cap_once_in_its_light_and_form(table: Table, tmp_path: Path) -> None:
+    rows = table("success", "--pictures", tmp_path / "pictures")
+    for name, beds in (("paper", 2), ("farm", 1)):
+        mine = {row["caps_of"]: row for row in rows if row["set"] == name}
+        assert 12 * beds <= mine["all"]["caps"] <= 14 * beds
+        sizes = sum(row["caps"] for of, row in mine.items() if of.startswith("size"))
+        assert sizes == mine["all"]["caps"]
+    pictures = sorted((tmp_path / "pictures").iterdir())
+    assert [path.name for path in pictures] == [
+        f"{name}-{which}.png" for name in ("farm", "paper") for which in ("best", "typical", "worst")
+    ]
+    assert cv2.imread(str(pictures[0])).shape == (192, 320, 3)
+
+
+def test_centres_account_for_every_cap(table: Table) -> None:
+    caps = {row["set"]: row["caps"] for row in table("success") if row["caps_of"] == "all"}
+    for row in table("centres"):
+        assert row["matched"] + row["missed"] == caps[row["set"]]
+        assert row["paper_CDR_%"] == 0.3
+
+
+def test_the_stages_add_up_to_the_cost_of_a_photo(table: Table) -> None:
+    rows = {row["stage"]: row for row in table("cost")}
+    stages = [row["ms"] for name, row in rows.items() if row["ms"] is not None][:5]
+    assert rows["decoded photo to stored centres"]["ms"] == pytest.approx(sum(stages), abs=0.5)
+    reference = rows["reference: the backbone alone, full resolution"]["ms"]
+    total = rows["decoded photo to stored centres"]
+    assert total["ratio"] == pytest.approx(total["ms"] / reference, rel=0.05, abs=0.02)
+
+
+def test_other_ways_to_run_say_the_same_where_they_should(
+    table: Table, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def compile_nothing(*_: object, **__: object) -> None:
+        raise RuntimeError("Failed to find a C++ compiler\nand more about it")
+
+    monkeypatch.setattr(torch, "compile", compile_nothing)
+    rows = {row["forward_pass"]: row for row in table("ways")}
+    assert rows["as it predicts"]["ratio"] == 1
+    assert rows["torch.compile: Failed to find a C++ compiler"]["ms"] is None
+    for same in ("batch norms not folded", "channels first"):
+        assert rows[same]["difference"] < 1e-3
+    assert rows["bfloat16"]["difference"] > 0
+
+
+def test_every_variant_is_trained_alike_and_once(table: Table, tmp_path: Path) -> None:
+    options = ["--out", tmp_path, "--iterations", "1", "--train-beds", "1", "--crop", "64", "--count", "1"]
+    rows = table("ablation", *options)
+    trained = [row for row in rows if not row["network"].startswith("paper")]
+    assert len({row["network"] for row in trained}) == 7
+    assert [row["window"] for row in trained] == [2, 1] * 7
+    recipes = [json.loads(path.read_text())["recipe"] for path in sorted(tmp_path.glob("1_*/run.json"))]
+    assert len(recipes) == 7
+    for setting in ("iterations", "batch", "seed", "crop", "rate"):
+        assert len({json.dumps(recipe[setting]) for recipe in recipes}) == 1
+    weights = {path: path.stat().st_mtime_ns for path in tmp_path.glob("1_*/weights.safetensors")}
+    assert table("ablation", *options) == rows
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.glob("1_*/weights.safetensors")} == weights

@@ -1,0 +1,24 @@
+"""The weights that come with Fairyring, on beds that no training has seen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import torch
+
+from app.bench.network.sets import rendered
+from app.bench.network.tables import predicted_document
+from model.evaluate.masks import evaluate_masks
+from model.network.weights import load_weights
+from model.predict import Predictor
+from model.shipped import SHIPPED
+
+LEAST_AP, LEAST_S50 = 0.75, 0.85
+
+
+def test_shipped_weights_see_most_caps_of_fresh_beds(tmp_path: Path) -> None:
+    beds = rendered("paper", tmp_path, count=3, progress=lambda *_: None)
+    predictor = Predictor(load_weights(SHIPPED).network, device=torch.device("cpu"))
+    figures = evaluate_masks(predicted_document(predictor, beds), beds.document)
+    assert figures["AP"] >= LEAST_AP
+    assert figures["S50"] >= LEAST_S50
