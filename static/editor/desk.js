@@ -6,10 +6,11 @@
  */
 
 import { placedWhole } from "./caps.js";
+import { Lens } from "./lens.js";
 import { boundsOf, changed, movedShape, nudgedHandle, withCap } from "./shapes.js";
 import { signal } from "./signal.js";
 import { Store, isPrediction, shapeOfPrediction } from "./store.js";
-import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view.js";
+import { joined } from "./view.js";
 
 /** @typedef {import("./handles.js").Handle} Handle */
 /** @typedef {import("./messages.js").Cap} Cap */
@@ -19,20 +20,8 @@ import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view
 /** @typedef {import("./messages.js").Prediction} Prediction */
 /** @typedef {import("./store.js").Change} Change */
 /** @typedef {import("./store.js").Shape} Shape */
-/** @typedef {import("./view.js").View} View */
 
 const NUDGE_SETTLES_MS = 400;
-
-/** @type {Record<string, boolean>} */
-export const LAYERS = {
-  photo: true,
-  outline: true,
-  fill: true,
-  whole: true,
-  centre: true,
-  label: false,
-  prediction: true,
-};
 
 export class Desk {
   store = new Store();
@@ -50,10 +39,17 @@ export class Desk {
   drafts = new Map();
   /** What the server said last. @type {Fit | null} */
   fitting = null;
-  /** @type {View} */
-  view = { scale: 1, x: 0, y: 0 };
-  size = { width: 0, height: 0 };
-  layers = { ...LAYERS };
+  lens = new Lens(() => this.signals.overlay.emit());
+  /** @type {Record<string, boolean>} */
+  layers = {
+    photo: true,
+    outline: true,
+    fill: true,
+    whole: true,
+    centre: true,
+    label: false,
+    prediction: true,
+  };
   hidden = false;
 
   signals = {
@@ -73,8 +69,6 @@ export class Desk {
 
   /** @type {Shape[] | null} */
   #items = null;
-  /** @type {Map<number, View>} */
-  #views = new Map();
   #nudging = 0;
   #commit;
 
@@ -143,16 +137,13 @@ export class Desk {
    */
   open(document) {
     const same = this.image?.id === document.image.id;
-    if (this.image && !same) this.#views.set(this.image.id, this.view);
     const selected = same ? [...this.selected] : [];
     this.image = document.image;
     this.predictions = document.predictions.map(shapeOfPrediction);
     this.#items = null;
     this.drafts.clear();
     this.hovered = null;
-    const known = this.#views.get(this.image.id);
-    if (!same && known) this.setView(known);
-    else if (!same) this.fit();
+    this.lens.turnTo(document.image);
     this.selected = new Set(selected.filter((uid) => this.item(uid)));
     this.active = null;
     this.signals.picture.emit();
@@ -308,44 +299,9 @@ export class Desk {
     return this.#nudging ? this.drafts.size : 0;
   }
 
-  /** @type {(view: View) => void} */
-  setView(view) {
-    this.view = onDevicePixels(view, window.devicePixelRatio);
-    this.signals.overlay.emit();
-  }
-
-  /** @type {(dx: number, dy: number) => void} */
-  panBy(dx, dy) {
-    this.setView(panned(this.view, dx, dy));
-  }
-
-  /** @type {(x: number, y: number, factor: number) => void} */
-  zoomAt(x, y, factor) {
-    this.setView(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
-  }
-
-  fit() {
-    this.setView(this.#fittingView());
-  }
-
-  #fittingView() {
-    const { width, height } = this.image ?? { width: 1, height: 1 };
-    return fitted({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
-  }
-
   /** Brings the selection into view. @param {{close?: boolean}} [how] */
   reveal({ close = false } = {}) {
     const all = this.selection.flatMap((shape) => boundsOf(shape) ?? []);
-    if (all.length === 0) return;
-    const bounds = {
-      x0: Math.min(...all.map(({ x0 }) => x0)),
-      y0: Math.min(...all.map(({ y0 }) => y0)),
-      x1: Math.max(...all.map(({ x1 }) => x1)),
-      y1: Math.max(...all.map(({ y1 }) => y1)),
-    };
-    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    this.setView(
-      close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
-    );
+    if (all.length) this.lens.reveal(all.reduce(joined), { close });
   }
 }

@@ -19,17 +19,13 @@ import { expose } from "./probe.js";
 import { statusIn } from "./status.js";
 import { Sync } from "./sync.js";
 import { openOutbox } from "./tabs.js";
-import { CircleTool } from "./tools/circle.js";
-import { panTool } from "./tools/pan.js";
-import { PolygonTool } from "./tools/polygon.js";
-import { SelectTool } from "./tools/select.js";
+import { Toolbox } from "./toolbox.js";
 import { Transport } from "./transport.js";
 
 /** @typedef {import("./messages.js").FromServer} FromServer */
 /** @typedef {import("./messages.js").Layers} Layers */
 /** @typedef {import("./messages.js").Show} Show */
 /** @typedef {import("./messages.js").ToServer} ToServer */
-/** @typedef {import("./tools/tool.js").Tool} Tool */
 
 /** Close codes of the server. */
 const NO_NAME = 4401;
@@ -53,11 +49,7 @@ export class Editor {
   #status;
   #card;
   #pointer;
-  #pressed;
-  /** @type {Record<string, Tool>} */
-  #tools;
-  /** @type {Tool} */
-  #tool;
+  #toolbox;
 
   /**
    * @param {HTMLElement} host
@@ -82,7 +74,7 @@ export class Editor {
     });
     this.#photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, this.#desk, this.#photos, () => [
-      this.#tool.sketch ?? (() => false),
+      this.#toolbox.tool.sketch ?? (() => false),
       this.#card.sketch,
     ]);
     this.#say = noticesIn(host);
@@ -92,10 +84,12 @@ export class Editor {
       resolve: (clash, whose) => this.#sync.resolve(clash, whose),
       show: (clash) => this.#showClash(clash),
     });
-    this.#tools = this.#makeTools();
-    this.#tool = this.#tools.select;
-    this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#tool);
-    this.#pressed = pressedButtons(() => this.#tool.name);
+    const pressed = pressedButtons(() => this.#toolbox.tool.name);
+    this.#toolbox = new Toolbox(this.#desk, () => {
+      pressed();
+      this.#pointer.cursor();
+    });
+    this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#toolbox.tool);
     const run = this.#makeRunner();
     listenToKeys({
       run,
@@ -105,7 +99,7 @@ export class Editor {
     });
     listenToPanel({
       run,
-      use: (name) => this.#use(name),
+      use: (name) => this.#toolbox.use(name),
       open: (image, select) => this.#open(image, select),
     });
     this.run = run;
@@ -116,7 +110,7 @@ export class Editor {
       frame: this.#frame,
       waiting: () => this.#unsaved,
       connection: () => this.#transport.state,
-      tool: () => this.#tool.name,
+      tool: () => this.#toolbox.tool.name,
     });
   }
 
@@ -125,23 +119,13 @@ export class Editor {
     this.#transport.offer(token);
   }
 
-  /** @returns {Record<string, Tool>} */
-  #makeTools() {
-    return {
-      select: new SelectTool(this.#desk),
-      polygon: new PolygonTool(this.#desk, () => this.#use("select")),
-      circle: new CircleTool(this.#desk),
-      pan: panTool(this.#desk),
-    };
-  }
-
   /** @returns {(name: string) => boolean} */
   #makeRunner() {
     const bench = {
       desk: this.#desk,
       sync: this.#sync,
-      tool: () => this.#tool,
-      use: (/** @type {string} */ name) => this.#use(name),
+      tool: () => this.#toolbox.tool,
+      use: (/** @type {string} */ name) => this.#toolbox.use(name),
       send: (/** @type {ToServer} */ message) => this.#send(message),
       toggle: (/** @type {string} */ layer) => this.#toggle(layer),
       help: keyList(),
@@ -158,32 +142,11 @@ export class Editor {
     const { signals } = this.#desk;
     signals.selection.listen(() => this.#tellSelection());
     signals.nudge.listen(() => this.#progress());
-    new ResizeObserver(([entry]) => this.#resized(entry.contentRect)).observe(this.#host);
+    new ResizeObserver(([entry]) => this.#desk.lens.resize(entry.contentRect)).observe(this.#host);
     window.addEventListener("beforeunload", (event) => {
       this.#desk.settle();
       if (!this.#sync.kept) event.preventDefault();
     });
-  }
-
-  /** @type {(box: {width: number, height: number}) => void} */
-  #resized({ width, height }) {
-    const desk = this.#desk;
-    const first = desk.size.width === 0;
-    const [dx, dy] = [(width - desk.size.width) / 2, (height - desk.size.height) / 2];
-    desk.size = { width, height };
-    if (first) desk.fit();
-    else desk.panBy(dx, dy);
-  }
-
-  /** @type {(name: string) => void} */
-  #use(name) {
-    if (!Object.hasOwn(this.#tools, name) || this.#tool.name === name) return;
-    this.#tool.cancel();
-    this.#desk.settle();
-    this.#tool = this.#tools[name];
-    this.#desk.hover(null);
-    this.#pressed();
-    this.#pointer.cursor();
   }
 
   /** @type {(message: ToServer) => boolean} */
@@ -299,7 +262,7 @@ export class Editor {
     this.#switchAsked = null;
     const { image } = document;
     if (image.id !== this.#desk.image?.id) {
-      this.#tool.cancel();
+      this.#toolbox.tool.cancel();
       this.#desk.settle();
       this.#frame.blank();
     }

@@ -114,7 +114,8 @@ export class Frame {
   #draw() {
     this.#asked = false;
     const started = performance.now();
-    const { view, size, layers, hidden } = this.#desk;
+    const { lens, layers, hidden } = this.#desk;
+    const { view, size } = lens;
     if (size.width < 1 || size.height < 1) return;
     const ratio = window.devicePixelRatio;
     this.#photo.visible = layers.photo;

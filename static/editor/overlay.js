@@ -53,7 +53,7 @@ export class Overlay {
   /** @type {(desk: Desk, ratio: number) => void} */
   #drawCaps(desk, ratio) {
     const shapes = desk.hidden ? [] : hoveredAndLifted(desk);
-    const context = this.#caps.lay(onScreen(desk.view, reachOfAll(shapes, desk)), desk.size, ratio);
+    const context = this.#caps.lay(onScreen(desk.lens.view, reachOfAll(shapes, desk)), desk.lens.size, ratio);
     if (context) {
       this.#caps.soil();
       drawShapes(context, shapes, desk);
@@ -62,7 +62,8 @@ export class Overlay {
   }
 
   /** @type {(desk: Desk, ratio: number, sketches: Sketch[]) => void} */
-  #drawSketches({ hidden, size, view }, ratio, sketches) {
+  #drawSketches({ hidden, lens }, ratio, sketches) {
+    const { size, view } = lens;
     const context = this.#sketches.lay({ x0: 0, y0: 0, x1: size.width, y1: size.height }, size, ratio);
     if (context && !hidden) for (const sketch of sketches) if (sketch(context, view)) this.#sketches.soil();
     this.#sketches.settle();
@@ -96,8 +97,8 @@ function onScreen(view, bounds) {
 function drawShapes(context, shapes, desk) {
   for (const shape of shapes) {
     const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
-    if (only) drawHovered(context, desk.view, shape);
-    else drawLifted(context, desk.view, shape, desk);
+    if (only) drawHovered(context, desk.lens.view, shape);
+    else drawLifted(context, desk.lens.view, shape, desk);
   }
 }
 

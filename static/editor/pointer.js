@@ -58,7 +58,7 @@ export class Pointer {
     const box = this.#host.getBoundingClientRect();
     this.at = [event.clientX - box.left, event.clientY - box.top];
     const { shiftKey: shift, altKey: alt } = event;
-    return { screen: this.at, image: toImage(this.#desk.view, ...this.at), shift, alt };
+    return { screen: this.at, image: toImage(this.#desk.lens.view, ...this.at), shift, alt };
   }
 
   /** @type {(event: PointerEvent) => void} */
@@ -109,7 +109,7 @@ export class Pointer {
     const [x, y] = this.at;
     const press = this.#press(event);
     if (this.#panning) {
-      this.#desk.panBy(this.at[0] - x, this.at[1] - y);
+      this.#desk.lens.panBy(this.at[0] - x, this.at[1] - y);
       this.#frame.blame(event.timeStamp, "pan");
     } else {
       this.#tool().hover(press);
@@ -140,7 +140,7 @@ export class Pointer {
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
     const speed = event.ctrlKey ? 6 * WHEEL_SPEED : WHEEL_SPEED;
-    this.#desk.zoomAt(...this.at, Math.exp(-pixels * speed));
+    this.#desk.lens.zoomAt(...this.at, Math.exp(-pixels * speed));
     this.#frame.blame(event.timeStamp, "zoom");
   }
 

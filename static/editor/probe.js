@@ -23,17 +23,17 @@ export function expose(host, { desk, frame, waiting, connection, tool }) {
      */
     toScreen(x, y) {
       const box = host.getBoundingClientRect();
-      const [sx, sy] = toScreen(desk.view, x, y);
+      const [sx, sy] = toScreen(desk.lens.view, x, y);
       return { x: sx + box.left, y: sy + box.top };
     },
     /** @type {(x: number, y: number) => {x: number, y: number}} */
     toImage(x, y) {
       const box = host.getBoundingClientRect();
-      const [ix, iy] = toImage(desk.view, x - box.left, y - box.top);
+      const [ix, iy] = toImage(desk.lens.view, x - box.left, y - box.top);
       return { x: ix, y: iy };
     },
     get scale() {
-      return desk.view.scale;
+      return desk.lens.view.scale;
     },
   };
   const state = {

@@ -51,7 +51,7 @@ export class CircleTool {
     const shape = this.#desk.sole;
     if (!shape || placedWhole(shape.cap)?.kind !== "circle") return null;
     const bare = { ...shape.cap, visible: [] };
-    const handle = nearestHandle(bare, press.image, GRAB_PX / this.#desk.view.scale);
+    const handle = nearestHandle(bare, press.image, GRAB_PX / this.#desk.lens.view.scale);
     return handle && { shape, handle };
   }
 

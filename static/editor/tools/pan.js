@@ -16,7 +16,7 @@ export function panTool(desk) {
     hover() {},
     down: (press) => (last = press.screen),
     drag(press) {
-      desk.panBy(press.screen[0] - last[0], press.screen[1] - last[1]);
+      desk.lens.panBy(press.screen[0] - last[0], press.screen[1] - last[1]);
       last = press.screen;
     },
     up() {},

@@ -51,7 +51,7 @@ export class PolygonTool {
   /** @type {(press: Press) => boolean} */
   #closes(press) {
     if (this.#points.length < FEWEST) return false;
-    return apart(toScreen(this.#desk.view, ...this.#points[0]), press.screen) <= GRAB_PX;
+    return apart(toScreen(this.#desk.lens.view, ...this.#points[0]), press.screen) <= GRAB_PX;
   }
 
   /** @type {(press: Press) => void} */
@@ -65,7 +65,7 @@ export class PolygonTool {
   drag(press) {
     this.#next = press.image;
     const last = this.#points.at(-1);
-    if (last && apart(toScreen(this.#desk.view, ...last), press.screen) >= FREEHAND_PX) this.#add(press);
+    if (last && apart(toScreen(this.#desk.lens.view, ...last), press.screen) >= FREEHAND_PX) this.#add(press);
     this.#desk.signals.overlay.emit();
   }
 

@@ -61,7 +61,7 @@ export class SelectTool {
       this.#keepsActive = false;
       desk.signals.overlay.emit();
     }
-    const item = handle ? null : pick(desk.pickable, press.image, EDGE_PX / desk.view.scale);
+    const item = handle ? null : pick(desk.pickable, press.image, EDGE_PX / desk.lens.view.scale);
     desk.hover(item && !desk.selected.has(item.uid) ? item.uid : null);
     this.cursor = this.#cursorFor(press, handle, item);
   }
@@ -82,12 +82,12 @@ export class SelectTool {
 
   /** @type {(shape: Shape, press: Press) => Handle | null} */
   #handleAt(shape, press) {
-    return nearestHandle(shape.cap, press.image, GRAB_PX / this.#desk.view.scale);
+    return nearestHandle(shape.cap, press.image, GRAB_PX / this.#desk.lens.view.scale);
   }
 
   /** @type {(shape: Shape, press: Press) => ReturnType<typeof nearestEdges>} */
   #edgeAt(shape, press) {
-    return nearestEdges(shape.cap, press.image, EDGE_PX / this.#desk.view.scale);
+    return nearestEdges(shape.cap, press.image, EDGE_PX / this.#desk.lens.view.scale);
   }
 
   /** @type {(press: Press) => void} */
@@ -106,7 +106,7 @@ export class SelectTool {
     if (press.shift) return { kind: "band", to: press.image };
     if (sole) {
       const handle = this.#handleAt(sole, press);
-      if (handle) return { kind: "handle", shape: sole, handle, pull: PULL_PX / desk.view.scale };
+      if (handle) return { kind: "handle", shape: sole, handle, pull: PULL_PX / desk.lens.view.scale };
       const edge = this.#edgeAt(sole, press);
       if (edge) {
         const { cap, vertices } = insertedVertices(sole.cap, edge.edges, edge.foot);
@@ -130,7 +130,7 @@ export class SelectTool {
     if (grip.kind === "handle") this.#dragHandle(grip, dx, dy, press.alt);
     else if (grip.kind === "shape") this.#desk.propose(grip.shapes.map((shape) => movedShape(shape, dx, dy)));
     else if (grip.kind === "band") this.#band(grip, press);
-    else this.#desk.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
+    else this.#desk.lens.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
     this.#last = press.screen;
   }
 
@@ -172,7 +172,7 @@ export class SelectTool {
       this.#keepsActive = true;
       return;
     }
-    const item = pick(desk.pickable, press.image, EDGE_PX / desk.view.scale);
+    const item = pick(desk.pickable, press.image, EDGE_PX / desk.lens.view.scale);
     if (!press.shift) return desk.select(item ? [item.uid] : []);
     if (!item) return;
     const others = [...desk.selected].filter((uid) => uid !== item.uid);
@@ -194,8 +194,8 @@ export class SelectTool {
 
   /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
   back() {
-    const sole = this.#desk.sole;
-    return sole !== null && handlesAreApart(sole, this.#desk.view.scale) && this.#removeVertex(this.#under);
+    const { sole, lens } = this.#desk;
+    return sole !== null && handlesAreApart(sole, lens.view.scale) && this.#removeVertex(this.#under);
   }
 
   /** @type {(handle: Handle | null) => boolean} */

@@ -95,7 +95,7 @@ POINTER = """
   host.setPointerCapture = () => {};
   const dragged = [];
   const tool = {cursor: '', down() {}, up() {}, hover() {}, drag: ({screen}) => dragged.push(screen[0])};
-  const desk = {view: {scale: 1, x: 0, y: 0}, hover() {}};
+  const desk = {lens: {view: {scale: 1, x: 0, y: 0}}, hover() {}};
   const pointer = new m.Pointer(host, desk, {blame() {}}, () => tool);
   const tell = (kind, clientX, wait = 0) => new Promise((resolve) => setTimeout(() => {
     host.dispatchEvent(new PointerEvent(kind, {clientX, button: 0, buttons: 1}));
