@@ -14,8 +14,10 @@ from model.tracing import fit_polygon, join_holes
 
 TOLERANCE = 0.2
 """How far an outline may lie from the level line, pixels: it is given fewer vertices."""
-LEAST_PART = 0.05
-"""Share of the largest part below which a part, or a hole, is left out."""
+LEAST_PART = 0.5
+"""Share of the largest part below which another is a speck, as a cap parted by what lies over it is rare."""
+LEAST_HOLE = 0.1
+"""Share of its part below which a hole is closed."""
 MOST_LOGIT = 6.0
 """Logits beyond are as sure: clipped, so that the line between two pixels is not drawn to the surer one."""
 
@@ -40,7 +42,7 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
     for rings, area in zip(loops, areas, strict=True):
         if area < LEAST_PART * max(areas) or area < 1:
             continue
-        holes = [ring for ring in rings[1:] if abs(signed_area(ring)) >= LEAST_PART * area]
+        holes = [ring for ring in rings[1:] if abs(signed_area(ring)) >= LEAST_HOLE * area]
         simple = [_simplified(ring) for ring in (rings[0], *holes)]
         if all(len(ring) >= 3 for ring in simple):
             # The padding moved every index by 1, the middle of a pixel lies half a pixel in.

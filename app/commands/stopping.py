@@ -35,7 +35,7 @@ def stopped_by_sigterm(progress: Progress) -> Iterator[Progress]:
     signal.signal(signal.SIGTERM, tell)
     try:
         yield report
-    except RuntimeError:
+    except (RuntimeError, OSError, EOFError):
         if told.is_set():
             raise KeyboardInterrupt from None
         raise
