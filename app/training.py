@@ -32,7 +32,7 @@ IMAGENET = "imagenet"
 """Given in place of a file: a new network, its backbone as ImageNet left it."""
 WARM_UP_SHARE = 0.1
 """Of the iterations, where their number is given: the paper's 500 of 5000."""
-FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 1e-4, 0.98
+FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 2e-5, 0.98
 """Iterations, rate and average of weights that are trained further."""
 
 

@@ -19,12 +19,13 @@ from model.photo import Pixels
 
 TRUTH, FOUND, UNSURE = (255, 255, 0), (255, 0, 255), (120, 120, 255)
 """BGR: true outlines cyan, predictions magenta, those of a score below CERTAIN in a dull red."""
+QUALITY = 85
 SUBPIXEL = 4
 """Bits of a coordinate that OpenCV draws below a pixel."""
 
 
 def draw_examples(predicted: dict[str, Any], photos: LabelledPhotos, out: Path) -> list[Path]:
-    """Writes NAME-best.png, NAME-typical.png and NAME-worst.png, by AP, and returns them."""
+    """Writes NAME-best.jpg, NAME-typical.jpg and NAME-worst.jpg, by AP, and returns them."""
     pages = pages_of(predicted, photos.document, masks=True, centres=False)
     scores = [score_masks([page]).ap or 0.0 for page in pages]
     order = np.argsort(scores)
@@ -38,9 +39,9 @@ def draw_examples(predicted: dict[str, Any], photos: LabelledPhotos, out: Path) 
         cv2.putText(
             picture, caption, (12, 28), cv2.FONT_HERSHEY_SIMPLEX, 0.8, (255, 255, 255), 2, cv2.LINE_AA
         )
-        path = out / f"{photos.name.replace(' ', '-')}-{name}.png"
+        path = out / f"{photos.name.replace(' ', '-')}-{name}.jpg"
         out.mkdir(parents=True, exist_ok=True)
-        if not cv2.imwrite(str(path), picture):
+        if not cv2.imwrite(str(path), picture, (cv2.IMWRITE_JPEG_QUALITY, QUALITY)):
             raise FileError(f"{path} cannot be written; give --pictures another folder.")
         written.append(path)
     return written

@@ -55,7 +55,7 @@ def test_success_counts_every_cap_once_in_its_light_and_form(table: Table, tmp_p
         assert sizes == mine["all"]["caps"]
     pictures = sorted((tmp_path / "pictures").iterdir())
     assert [path.name for path in pictures] == [
-        f"{name}-{which}.png" for name in ("farm", "paper") for which in ("best", "typical", "worst")
+        f"{name}-{which}.jpg" for name in ("farm", "paper") for which in ("best", "typical", "worst")
     ]
     assert cv2.imread(str(pictures[0])).shape == (192, 320, 3)
 

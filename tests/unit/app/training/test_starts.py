@@ -79,6 +79,6 @@ def test_weights_of_ours_are_trained_further_in_gentle_steps_unless_a_recipe_say
     for number, options in enumerate([("--weights", base), ("--weights", "imagenet"), ("--config", recipe)]):
         assert sentence(train(labelled.folder, tmp_path / str(number), *options)) == "seen"
     gentle, paper, own = seen
-    assert (gentle.optimiser, gentle.rate, gentle.iterations, gentle.warm_up) == ("adamw", 1e-4, 500, 50)
+    assert (gentle.optimiser, gentle.rate, gentle.iterations, gentle.warm_up) == ("adamw", 2e-5, 500, 50)
     assert paper == Recipe()
     assert own == read_recipe(recipe)
