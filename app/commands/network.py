@@ -126,7 +126,7 @@ def predict(
     images: Annotated[str, typer.Option(metavar="GLOB", help="Only images of these file names.")] = "*",
     device: OnDevice = Device.auto,
     least_score: Annotated[
-        float, typer.Option(min=0.05, max=1.0, help="Caps less sure are left out; 0.05 for measuring AP.")
+        float, typer.Option(min=0.0, max=1.0, help="Caps less sure are left out; 0 for measuring AP.")
     ] = 0.3,
     redo: Annotated[bool, typer.Option(help="Predict images anew that these weights have seen.")] = False,
     as_json: AsJson = False,
