@@ -18,7 +18,7 @@ from model.network.pr_solov2 import Outputs, PRSOLOv2
 from model.network.refine import draw
 from model.outlines import outline_of_logits
 from model.raster import Rle, iou_matrix, rle_of_outline
-from model.settle import Window, distinct, lasting, settle
+from model.settle import Window, distinct, settle
 from model.tiles import Tile, tiles_of
 
 SLACK = 8.0
@@ -157,11 +157,8 @@ class Predictor:
 def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
     """The caps that a piece tells of a photo of so many pixels, with raw scores."""
     tile = piece.tile
-    size = {"width": tile.width, "height": tile.height}
-    kept = lasting(piece.windows, settle(piece.windows, piece.scores, **size), **size)
-    windows, scores = [piece.windows[nth] for nth in kept], [piece.scores[nth] for nth in kept]
-    # What those that are gone had taken goes back to the others.
-    for score, window in zip(scores, settle(windows, scores, **size), strict=True):
+    settled = settle(piece.windows, piece.scores, width=tile.width, height=tile.height)
+    for score, window in zip(piece.scores, settled, strict=True):
         outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
         if not outline:
             continue

@@ -13,9 +13,6 @@ CONFIDENT = 0.3
 MOST_TAKEN = 0.5
 """Share of an instance's pixels in better ones above which it is another view of the same cap."""
 
-LEAST_KEPT = 1 / 3
-"""Share of its pixels that a cap keeps, whatever others claim; less is left of a medley of several."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Window:
@@ -60,16 +57,6 @@ def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, he
         others = np.where(owner[place] == nth, second[place], first[place])
         settled.append(replace(window, logits=window.logits - others))
     return settled
-
-
-def lasting(windows: Sequence[Window], settled: Sequence[Window], *, width: int, height: int) -> list[int]:
-    """The places of the windows that ``settle`` left enough of to be caps of their own."""
-    kept = []
-    for nth, (before, after) in enumerate(zip(windows, settled, strict=True)):
-        area = np.count_nonzero(_cut(before, width=width, height=height).logits > 0)
-        if area and np.count_nonzero(after.logits > 0) >= LEAST_KEPT * area:
-            kept.append(nth)
-    return kept
 
 
 def _claim(

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.settle import CONFIDENT, Window, distinct, lasting, settle
+from model.settle import CONFIDENT, Window, distinct, settle
 
 
 def window(x: int, y: int, values: list[list[float]]) -> Window:
@@ -122,20 +122,3 @@ def test_an_empty_mask_is_no_cap() -> None:
     masks = squares((2, 2), (2, 2))
     masks[0] = False
     assert distinct(masks, [0.9, 0.8]) == [1]
-
-
-def test_an_instance_that_keeps_less_than_a_third_of_its_pixels_is_a_medley_of_others() -> None:
-    row = [[2.0] * 9]
-    first, second = window(0, 0, [[5.0] * 4]), window(4, 0, [[5.0] * 3])
-    for taken_by_second, kept in ((second, [0, 1]), (window(4, 0, [[5.0] * 2]), [0, 1, 2])):
-        windows = [first, taken_by_second, window(0, 0, row)]
-        settled = settle(windows, [0.9, 0.8, 0.7], width=9, height=1)
-        assert lasting(windows, settled, width=9, height=1) == kept
-
-
-def test_what_lies_beyond_the_photo_does_not_count_as_taken() -> None:
-    beyond = window(-8, 0, [[2.0] * 9])
-    settled = settle([beyond], [0.9], width=5, height=1)
-    assert lasting([beyond], settled, width=5, height=1) == [0]
-    outside = window(7, 0, [[2.0]])
-    assert lasting([outside], settle([outside], [0.9], width=5, height=1), width=5, height=1) == []
