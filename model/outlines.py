@@ -10,12 +10,11 @@ from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
 from model.geometry import Outline, Points, part_of_points, signed_area
+from model.settle import LEAST_PART
 from model.tracing import fit_polygon, join_holes
 
 TOLERANCE = 0.2
 """How far an outline may lie from the level line, pixels: it is given fewer vertices."""
-LEAST_PART = 0.5
-"""Share of the largest part below which another is a speck, as a cap parted by what lies over it is rare."""
 LEAST_HOLE = 0.1
 """Share of its part below which a hole is closed."""
 MOST_LOGIT = 6.0

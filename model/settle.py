@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +13,9 @@ CONFIDENT = 0.3
 """Score from which an instance takes pixels from others."""
 MOST_TAKEN = 0.5
 """Share of an instance's pixels in better ones above which it is another view of the same cap."""
+
+LEAST_PART = 0.5
+"""Share of the largest part below which another is a speck, as a cap parted by what lies over it is rare."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,9 +47,9 @@ def distinct(masks: NDArray[np.bool_], scores: Sequence[float]) -> list[int]:
 def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[Window]:
     """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
 
-    Where two caps touch, the edge then runs where they are equally sure.
+    Where two caps touch, the edge then runs where they are equally sure. Specks claim nothing.
     """
-    inside = [_cut(window, width=width, height=height) for window in windows]
+    inside = [_without_specks(_cut(window, width=width, height=height)) for window in windows]
     first, second = np.zeros((2, height, width), np.float32)
     owner = np.full((height, width), -1, np.int32)
     for nth, (window, score) in enumerate(zip(inside, scores, strict=True)):
@@ -57,6 +61,20 @@ def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, he
         others = np.where(owner[place] == nth, second[place], first[place])
         settled.append(replace(window, logits=window.logits - others))
     return settled
+
+
+def _without_specks(window: Window) -> Window:
+    """The same with the logits turned around in parts that are too small beside the largest."""
+    held = (window.logits > 0).astype(np.uint8)
+    if not held.any():
+        return window
+    count, parts, figures, _ = cv2.connectedComponentsWithStats(held, connectivity=4)
+    areas = figures[1:, cv2.CC_STAT_AREA]
+    specks = np.flatnonzero(areas < LEAST_PART * areas.max()) + 1
+    if count == 2 or not len(specks):
+        return window
+    turned = np.where(np.isin(parts, specks), -window.logits, window.logits)
+    return replace(window, logits=turned)
 
 
 def _claim(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -55,6 +56,17 @@ def test_no_windows_are_none() -> None:
     assert settle([], [], width=4, height=4) == []
 
 
+def test_a_speck_claims_nothing_and_a_second_part_half_as_large_does() -> None:
+    cap = window(0, 0, [[1.0] * 6])
+    two_parts = [[-1.0, 3.0, -1.0, 3.0, 3.0, 3.0]]
+    settled, thief = settle([cap, window(0, 0, two_parts)], [0.9, 0.8], width=6, height=1)
+    assert settled.logits.tolist() == [[1.0, 1.0, 1.0, -2.0, -2.0, -2.0]]
+    assert thief.logits.tolist() == [[-2.0, -4.0, -2.0, 2.0, 2.0, 2.0]]
+    wider = [[3.0, 3.0, -1.0, 3.0, 3.0, 3.0]]
+    settled, _ = settle([cap, window(0, 0, wider)], [0.9, 0.8], width=6, height=1)
+    assert settled.logits.tolist() == [[-2.0, -2.0, 1.0, -2.0, -2.0, -2.0]]
+
+
 def by_loops(
     windows: list[Window], scores: list[float], width: int, height: int
 ) -> list[NDArray[np.float32]]:
@@ -89,7 +101,10 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
     ]
     scores = [score for *_, score in drawn]
     expected = by_loops(given_windows, scores, 8, 7)
-    for one, whole in zip(settle(given_windows, scores, width=8, height=7), expected, strict=True):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("model.settle.LEAST_PART", 0.0)  # specks, too, as these are nothing else
+        settled = settle(given_windows, scores, width=8, height=7)
+    for one, whole in zip(settled, expected, strict=True):
         height, width = one.logits.shape
         np.testing.assert_array_equal(one.logits, whole[one.y : one.y + height, one.x : one.x + width])
         assert np.isfinite(whole).sum() == one.logits.size
