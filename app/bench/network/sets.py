@@ -49,7 +49,8 @@ class LabelledPhotos:
 def rendered(name: str, folder: Path, *, count: int | None = None, progress: Progress) -> LabelledPhotos:
     """The test beds of a preset, rendered into ``folder`` unless they are there already."""
     all_of_them, seed = TEST_BEDS[name]
-    out = folder / f"test_{name}"
+    # Fewer of them have a folder of their own: one of all would be cut down.
+    out = folder / (f"test_{name}" if count is None else f"test_{name}_{count}")
     write_beds(out, preset(name), count=count or all_of_them, seed=seed, resume=True, progress=progress)
     return _read(name, out / DOCUMENT)
 
