@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 MOST_CERTAIN = 1e-6
 """Scores are kept this far from 0 and 1, whose log-odds are not finite."""
@@ -14,6 +13,10 @@ PRIOR = 5.0
 """Weight of leaving scores as they are, in detections: a few of them do not turn the line around."""
 LEAST_SLOPE = 0.05
 """Above 0, so that the order of scores stays."""
+UNCHANGED = np.array([1.0, 0.0])
+"""The slope and shift that leave scores as they are."""
+ACCURACY = 1e-9
+MOST_STEPS = 100
 
 Figures = NDArray[np.float64]
 
@@ -44,16 +47,33 @@ def fit_calibration(scores: Figures, right: NDArray[np.bool_]) -> Calibration:
     Largest likelihood with a normal prior about no change; with no detections at all nothing is changed.
     """
     x, sign = _log_odds(scores), np.where(right, 1.0, -1.0)
+    line = _most_likely(x, sign, start=np.array([1.0, 0.0]), free=[0, 1])
+    if line[0] < LEAST_SLOPE:  # the cost is convex, so the best line that is allowed has the least slope
+        line = _most_likely(x, sign, start=np.array([LEAST_SLOPE, line[1]]), free=[1])
+    return Calibration(*line.tolist())
 
-    def cost(line: Figures) -> tuple[float, Figures]:
-        margin = sign * (line[0] * x + line[1])
-        away = line - (1.0, 0.0)
-        wrong = -sign / (1 + np.exp(margin))
-        gradient = np.array([wrong @ x, wrong.sum()]) + PRIOR * away
-        return float(np.logaddexp(0, -margin).sum() + PRIOR / 2 * (away @ away)), gradient
 
-    found = minimize(cost, (1.0, 0.0), jac=True, bounds=((LEAST_SLOPE, None), (None, None)))
-    return Calibration(*found.x.tolist())
+def _most_likely(x: Figures, sign: Figures, *, start: Figures, free: list[int]) -> Figures:
+    """Newton's steps, halved while they do not help: (slope, shift), of which only ``free`` move."""
+    inputs, line = np.stack([x, np.ones_like(x)]), start.copy()
+
+    def cost(line: Figures) -> float:
+        away = line - UNCHANGED
+        return float(np.logaddexp(0, -sign * (line @ inputs)).sum() + PRIOR / 2 * (away @ away))
+
+    for _ in range(MOST_STEPS):
+        likely = 1 / (1 + np.exp(-(line @ inputs)))
+        gradient = inputs @ (likely - (sign > 0)) + PRIOR * (line - UNCHANGED)
+        curvature = (inputs * likely * (1 - likely)) @ inputs.T + PRIOR * np.eye(2)
+        step = np.zeros(2)
+        step[free] = np.linalg.solve(curvature[np.ix_(free, free)], -gradient[free])
+        before = cost(line)
+        while cost(line + step) > before and np.abs(step).max() > ACCURACY:
+            step /= 2
+        line += step
+        if np.abs(step).max() <= ACCURACY:
+            break
+    return line
 
 
 def _log_odds(scores: Figures) -> Figures:

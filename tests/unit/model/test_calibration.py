@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.optimize import minimize
 
-from model.calibration import Calibration, calibrated, fit_calibration, uncalibrated
+from model.calibration import LEAST_SLOPE, PRIOR, Calibration, calibrated, fit_calibration, uncalibrated
 
 scores = st.lists(st.floats(0, 1), min_size=1, max_size=30).map(np.array)
 
@@ -58,3 +59,20 @@ def test_few_detections_change_little_and_none_change_nothing() -> None:
 def test_scores_that_say_the_contrary_keep_their_order() -> None:
     said = np.linspace(0.1, 0.9, 200)
     assert fit_calibration(said, said < 0.5).slope >= 0.05
+
+
+@given(st.integers(0, 10_000), st.integers(1, 300), st.floats(-3, 4), st.floats(-3, 3))
+def test_the_line_is_the_one_that_scipy_finds(seed: int, count: int, slope: float, shift: float) -> None:
+    rng = np.random.default_rng(seed)
+    odds = rng.normal(0, 3, count)
+    said, right = 1 / (1 + np.exp(-odds)), rng.uniform(size=count) < 1 / (1 + np.exp(-slope * odds - shift))
+
+    def cost(line: np.ndarray) -> float:
+        sign = np.where(right, 1.0, -1.0)
+        away = line - (1.0, 0.0)
+        return float(np.logaddexp(0, -sign * (line[0] * odds + line[1])).sum() + PRIOR / 2 * (away @ away))
+
+    found = fit_calibration(said, right)
+    best = minimize(cost, (1.0, 0.0), bounds=((LEAST_SLOPE, None), (None, None)), method="L-BFGS-B")
+    assert cost(np.array(found)) <= best.fun + 1e-6
+    assert found == pytest.approx(tuple(best.x), abs=2e-3)
