@@ -10,19 +10,19 @@ demo: .venv/product
 	@$(BIN)/fairyring serve demo --port $(PORT)
 
 test: .venv/development
-	@$(BIN)/python -m app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.chromium
 	$(BIN)/python -m pytest $(ARGS)
 
 bench: .venv/development
-	@$(BIN)/python -m app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
 
 pictures: .venv/development
-	@$(BIN)/python -m app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.chromium
 	$(BIN)/python -m docs.take_screenshots
 
-lint: .venv/development
+lint: .venv/development .venv/typing
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/basedpyright
@@ -44,3 +44,8 @@ clean:
 .venv/development: .venv/product
 	$(BIN)/python -m pip install --quiet --group dev
 	@touch $@
+
+# The type checker finds fairyring.app in app/ through these links.
+.venv/typing: .venv/pip
+	@mkdir -p $@/fairyring
+	@for room in app model storage static; do ln -sfn ../../../$$room $@/fairyring/$$room; done

@@ -8,9 +8,9 @@ from typing import Annotated
 
 import typer
 
-from app.commands import benchmarks, contour, demo, evaluate, network, project, serve, synth
-from app.commands.version import print_version
-from model.errors import FairyringError
+from fairyring.app.commands import benchmarks, contour, demo, evaluate, network, project, serve, synth
+from fairyring.app.commands.version import print_version
+from fairyring.model.errors import FairyringError
 
 app = typer.Typer(
     name="fairyring",

@@ -6,14 +6,14 @@ import os
 import tempfile
 from pathlib import Path
 
-from app.derive import Progress
-from app.predicting import network_of, predict_images
-from model.scene.dataset import write_beds
-from model.scene.presets import preset
-from model.shipped import SHIPPED
-from storage.images import ImageFilter, list_ids
-from storage.importing import import_paths
-from storage.project import create_project
+from fairyring.app.derive import Progress
+from fairyring.app.predicting import network_of, predict_images
+from fairyring.model.scene.dataset import write_beds
+from fairyring.model.scene.presets import preset
+from fairyring.model.shipped import SHIPPED
+from fairyring.storage.images import ImageFilter, list_ids
+from fairyring.storage.importing import import_paths
+from fairyring.storage.project import create_project
 
 
 def make_demo(folder: Path, *, count: int, seed: int, progress: Progress = lambda *_: None) -> None:

@@ -12,20 +12,20 @@ from typing import TypeVar
 
 import msgspec
 
-from app.gateway.messages import Arc, Fit, Refit
-from app.scene import Scene, scene_of
-from model.contour.marks import whole_of_mark
-from model.contour.reconstruct import Reconstruction, reconstruct
-from model.contour.result import Arc as FoundArc
-from model.geometry import Circle, GeometryError, Polygon
-from model.raster import check_mark, check_outline
-from storage import derived
-from storage.documents import load_annotations, load_document, load_predictions
-from storage.errors import StoreError
-from storage.images import get_image
-from storage.journal import Derived
-from storage.project import Project
-from storage.records import Annotation, Cap, Edit, Image, Mark, Outline, Shape
+from fairyring.app.gateway.messages import Arc, Fit, Refit
+from fairyring.app.scene import Scene, scene_of
+from fairyring.model.contour.marks import whole_of_mark
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct
+from fairyring.model.contour.result import Arc as FoundArc
+from fairyring.model.geometry import Circle, GeometryError, Polygon
+from fairyring.model.raster import check_mark, check_outline
+from fairyring.storage import derived
+from fairyring.storage.documents import load_annotations, load_document, load_predictions
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import get_image
+from fairyring.storage.journal import Derived
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline, Shape
 
 Key = TypeVar("Key")
 Progress = Callable[[int, int, str], None]

@@ -7,9 +7,9 @@ from collections import OrderedDict
 import msgspec
 from sqlalchemy import Connection
 
-from storage.documents import load_document, load_version
-from storage.images import get_image
-from storage.records import Document
+from fairyring.storage.documents import load_document, load_version
+from fairyring.storage.images import get_image
+from fairyring.storage.records import Document
 
 MOST_KEPT = 16
 

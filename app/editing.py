@@ -8,13 +8,13 @@ from collections.abc import Sequence
 
 import anyio.to_thread
 
-from app.derive import derive_edits, refit
-from app.gateway.messages import Changed, Outcomes, Refit
-from app.scene import Scene
-from app.session import Session
-from app.workspace import Workspace
-from storage.journal import commit
-from storage.records import Accepted, Conflict, Edit, Outcome
+from fairyring.app.derive import derive_edits, refit
+from fairyring.app.gateway.messages import Changed, Outcomes, Refit
+from fairyring.app.scene import Scene
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
+from fairyring.storage.journal import commit
+from fairyring.storage.records import Accepted, Conflict, Edit, Outcome
 
 log = logging.getLogger(__name__)
 

@@ -9,10 +9,10 @@ from typing import Literal
 from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
 
-from app.derive import fill_in
-from app.jobs import Progress, Result
-from storage.exporting import export_coco
-from storage.project import Project
+from fairyring.app.derive import fill_in
+from fairyring.app.jobs import Progress, Result
+from fairyring.storage.exporting import export_coco
+from fairyring.storage.project import Project
 
 Only = Literal["annotated", "approved", "predicted", "all"]
 KEPT = 3

@@ -13,7 +13,7 @@ from typing import Literal
 import anyio
 import anyio.to_thread
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 log = logging.getLogger(__name__)
 

@@ -9,19 +9,19 @@ from typing import Any, TypeVar
 
 from sqlalchemy import Connection
 
-from app.derive import Progress
-from app.originals import original_of
-from model.data import Example
-from model.errors import FairyringError
-from model.geometry import Outline, Polygon, polygon_of_shape
-from model.split import split_by_source
-from storage.documents import load_annotations
-from storage.errors import StoreError
-from storage.images import ImageFilter, get_image, list_ids
-from storage.intake import Intake, take_in
-from storage.project import SETTINGS, Project, open_project
-from storage.records import Annotation, Cap, Image
-from storage.sources import Sources, gather
+from fairyring.app.derive import Progress
+from fairyring.app.originals import original_of
+from fairyring.model.data import Example
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import Outline, Polygon, polygon_of_shape
+from fairyring.model.split import split_by_source
+from fairyring.storage.documents import load_annotations
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import ImageFilter, get_image, list_ids
+from fairyring.storage.intake import Intake, take_in
+from fairyring.storage.project import SETTINGS, Project, open_project
+from fairyring.storage.records import Annotation, Cap, Image
+from fairyring.storage.sources import Sources, gather
 
 Item = TypeVar("Item")
 

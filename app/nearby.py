@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TypeVar
 
-from storage.records import Outline
+from fairyring.storage.records import Outline
 
 Key = TypeVar("Key")
 Box = tuple[float, float, float, float]

@@ -8,15 +8,15 @@ from typing import Literal
 import msgspec
 from sqlalchemy import Connection
 
-from app.gateway.messages import Predicted, Show
-from app.gateway.photos import url_of_photo
-from app.session import Selection, Session
-from app.workspace import Workspace
-from storage import images
-from storage.documents import load_version
-from storage.errors import StoreError
-from storage.images import ImageFilter, Place
-from storage.records import Document, Image, Status
+from fairyring.app.gateway.messages import Predicted, Show
+from fairyring.app.gateway.photos import url_of_photo
+from fairyring.app.session import Selection, Session
+from fairyring.app.workspace import Workspace
+from fairyring.storage import images
+from fairyring.storage.documents import load_version
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import ImageFilter, Place
+from fairyring.storage.records import Document, Image, Status
 
 CHANGES_IMAGE = ("status", "images", "cap", "review")
 """The parts of the panel that depend on the image on screen."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from model.errors import FairyringError
-from storage.project import Project
-from storage.records import Image
+from fairyring.model.errors import FairyringError
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image
 
 
 def original_of(project: Project, image: Image) -> Path:

@@ -14,20 +14,20 @@ import numpy as np
 import torch
 from sqlalchemy import Connection
 
-from app.derive import Progress, Whole, wholes_of
-from app.originals import original_of
-from model import photo
-from model.device import device_of
-from model.errors import FairyringError
-from model.geometry import GeometryError, Outline
-from model.network.config import SIZES, NetworkConfig
-from model.network.weights import load_weights
-from model.predict import PredictConfig, Predictor
-from model.raster import check_outline
-from storage.images import get_image
-from storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
-from storage.project import Project
-from storage.records import Image
+from fairyring.app.derive import Progress, Whole, wholes_of
+from fairyring.app.originals import original_of
+from fairyring.model import photo
+from fairyring.model.device import device_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import GeometryError, Outline
+from fairyring.model.network.config import SIZES, NetworkConfig
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import PredictConfig, Predictor
+from fairyring.model.raster import check_outline
+from fairyring.storage.images import get_image
+from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image
 
 LEAST_SCORE = 0.3
 """Predictions below are kept from people, who would have to turn down most of them one by one."""

@@ -11,18 +11,18 @@ from collections.abc import Callable, Sequence
 
 import anyio.to_thread
 
-from app.jobs import Progress, Result
-from app.nearby import keys_near
-from app.scene import Scene, covered_by
-from model.documents import CapRecord
-from model.evaluate import centres
-from model.geometry import diameter_of_shape
-from model.raster import rle_of_outline
-from storage.comparisons import Comparison, stale_images, store_comparison
-from storage.documents import load_annotations, load_document, load_predictions, load_version
-from storage.predictions import latest_run
-from storage.project import Project
-from storage.records import Annotation, Image, Prediction
+from fairyring.app.jobs import Progress, Result
+from fairyring.app.nearby import keys_near
+from fairyring.app.scene import Scene, covered_by
+from fairyring.model.documents import CapRecord
+from fairyring.model.evaluate import centres
+from fairyring.model.geometry import diameter_of_shape
+from fairyring.model.raster import rle_of_outline
+from fairyring.storage.comparisons import Comparison, stale_images, store_comparison
+from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_version
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Image, Prediction
 
 log = logging.getLogger(__name__)
 

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from app.nearby import NOWHERE, Boxes, around
-from model.geometry import polygon_of_shape
-from storage.records import Annotation, Document, Image, Outline, Prediction
+from fairyring.app.nearby import NOWHERE, Boxes, around
+from fairyring.model.geometry import polygon_of_shape
+from fairyring.storage.records import Annotation, Document, Image, Outline, Prediction
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,12 @@ from typing import Literal
 import msgspec
 import viser
 
-from app.gateway.messages import FromServer, Layers, Notice
-from app.nearby import Boxes
-from app.panels.markup import element
-from app.scene import Scene
-from storage.images import ImageFilter
-from storage.records import Annotation, Document, Image
+from fairyring.app.gateway.messages import FromServer, Layers, Notice
+from fairyring.app.nearby import Boxes
+from fairyring.app.panels.markup import element
+from fairyring.app.scene import Scene
+from fairyring.storage.images import ImageFilter
+from fairyring.storage.records import Annotation, Document, Image
 
 log = logging.getLogger(__name__)
 

@@ -11,7 +11,7 @@ from typing import Any
 import msgspec
 from msgspec import Struct
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 ENVIRONMENT_PREFIX = "FAIRYRING_"
 TABLE = "serve"

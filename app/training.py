@@ -13,20 +13,20 @@ import msgspec
 import torch
 from msgspec import structs
 
-from app.derive import Progress
-from app.labels import Labels, divided, labels_at
-from model.checkpoint import CheckpointError
-from model.device import device_of
-from model.errors import FairyringError
-from model.network.backbone import load_backbone
-from model.network.config import NetworkConfig
-from model.network.lite0 import imagenet_weights
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.weights import load_weights
-from model.recipe import Recipe, checked, read_recipe
-from model.shipped import RECIPE, SHIPPED
-from model.train import RUN, TrainResult, train
-from storage.project import SETTINGS
+from fairyring.app.derive import Progress
+from fairyring.app.labels import Labels, divided, labels_at
+from fairyring.model.checkpoint import CheckpointError
+from fairyring.model.device import device_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.lite0 import imagenet_weights
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.weights import load_weights
+from fairyring.model.recipe import Recipe, checked, read_recipe
+from fairyring.model.shipped import RECIPE, SHIPPED
+from fairyring.model.train import RUN, TrainResult, train
+from fairyring.storage.project import SETTINGS
 
 IMAGENET = "imagenet"
 """Given in place of a file: a new network, its backbone as ImageNet left it."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from model.errors import FairyringError
-from model.shipped import SHIPPED
-from storage.project import Project
+from fairyring.model.errors import FairyringError
+from fairyring.model.shipped import SHIPPED
+from fairyring.storage.project import Project
 
 
 def weights_of(project: Project) -> Path | None:

@@ -12,13 +12,13 @@ from typing import TypeVar
 import anyio.to_thread
 from sqlalchemy import Connection
 
-from app.documents import Documents
-from app.jobs import Job, Jobs, Progress, Result
-from app.review import Reviewer
-from app.session import Session, Tabs
-from app.settings import Settings
-from model.errors import FairyringError
-from storage.project import Project
+from fairyring.app.documents import Documents
+from fairyring.app.jobs import Job, Jobs, Progress, Result
+from fairyring.app.review import Reviewer
+from fairyring.app.session import Session, Tabs
+from fairyring.app.settings import Settings
+from fairyring.model.errors import FairyringError
+from fairyring.storage.project import Project
 
 Found = TypeVar("Found")
 

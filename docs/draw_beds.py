@@ -10,10 +10,10 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from model.geometry import points_of_part
-from model.scene.bed import Bed, render_bed
-from model.scene.presets import preset
-from model.scene.settings import FORMS, LightSource
+from fairyring.model.geometry import points_of_part
+from fairyring.model.scene.bed import Bed, render_bed
+from fairyring.model.scene.presets import preset
+from fairyring.model.scene.settings import FORMS, LightSource
 
 OUT = Path(__file__).parent / "beds"
 THUMB = (432, 243)

@@ -7,13 +7,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from model.contour.classify import Limits, defects_of
-from model.contour.paper import reconstruct_contour
-from model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
-from model.contour.silhouette import Silhouette, contours_of, silhouette_of_outline
-from model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
-from model.scene.bed import Bed, render_bed
-from model.scene.presets import preset
+from fairyring.model.contour.classify import Limits, defects_of
+from fairyring.model.contour.paper import reconstruct_contour
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.silhouette import Silhouette, contours_of, silhouette_of_outline
+from fairyring.model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
+from fairyring.model.scene.bed import Bed, render_bed
+from fairyring.model.scene.presets import preset
 
 PICTURES = Path(__file__).parent / "pictures"
 Picture = np.ndarray

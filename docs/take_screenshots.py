@@ -5,9 +5,9 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from app.bench.serving import Server
-from app.bench.tab import Tab, centroid, chromium
-from app.demo import make_demo
+from fairyring.app.bench.serving import Server
+from fairyring.app.bench.tab import Tab, centroid, chromium
+from fairyring.app.demo import make_demo
 
 PICTURES = Path(__file__).parent / "pictures"
 WINDOW = {"width": 1440, "height": 860}

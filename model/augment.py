@@ -13,7 +13,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from model.geometry import (
+from fairyring.model.geometry import (
     Circle,
     Ellipse,
     Outline,

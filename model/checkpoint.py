@@ -7,7 +7,7 @@ from typing import Any
 
 import torch
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 CHECKPOINT = "last.pt"
 

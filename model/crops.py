@@ -10,10 +10,10 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from model.augment import Affine, Augmentation, motion_of, move_outline
-from model.geometry import Outline, bounds_of_outline
-from model.network.config import FRAME
-from model.raster import Mask, mask_of_outline
+from fairyring.model.augment import Affine, Augmentation, motion_of, move_outline
+from fairyring.model.geometry import Outline, bounds_of_outline
+from fairyring.model.network.config import FRAME
+from fairyring.model.raster import Mask, mask_of_outline
 
 LEAST_VISIBLE = 24
 """Pixels of a cap in the crop below which it is not learnt there."""

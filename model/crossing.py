@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import Points
+from fairyring.model.geometry import Points
 
 PAIRS_AT_ONCE = 1 << 20
 

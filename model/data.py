@@ -12,14 +12,14 @@ import torch
 from msgspec import Struct
 from torch.utils.data import Dataset
 
-from model import photo
-from model.augment import draw_augmentation
-from model.crops import Crop, CropConfig, cut_crop
-from model.errors import FairyringError
-from model.geometry import Outline
-from model.network.config import NetworkConfig
-from model.network.objective import Batch, Caps
-from model.network.targets import assign_cells
+from fairyring.model import photo
+from fairyring.model.augment import draw_augmentation
+from fairyring.model.crops import Crop, CropConfig, cut_crop
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import Outline
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.objective import Batch, Caps
+from fairyring.model.network.targets import assign_cells
 
 CACHED_PHOTOS = 700
 """Decoded photos kept in memory: about 2 GB at 1280 × 720."""

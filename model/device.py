@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import torch
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 
 class DeviceError(FairyringError):

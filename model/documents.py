@@ -15,9 +15,9 @@ from typing import Any, Literal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from model.contour.marks import whole_of_mark
-from model.errors import FairyringError
-from model.geometry import (
+from fairyring.model.contour.marks import whole_of_mark
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import (
     Centre,
     Circle,
     GeometryError,
@@ -28,9 +28,9 @@ from model.geometry import (
     diameter_of_shape,
     part_of_points,
 )
-from model.raster import Rle, check_outline, check_rle, rle_of_outline
-from model.rle import checked_runs, cut_of_runs
-from model.tracing import rim_of_mask
+from fairyring.model.raster import Rle, check_outline, check_rle, rle_of_outline
+from fairyring.model.rle import checked_runs, cut_of_runs
+from fairyring.model.tracing import rim_of_mask
 
 ELLIPSE_FIGURES = 5
 CIRCLE_FIGURES = 3

@@ -21,7 +21,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import ArrayLike, NDArray
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 Outline = list[list[float]]
 Points = NDArray[np.float64]

@@ -6,10 +6,10 @@ from collections.abc import Iterator, Sequence
 
 from torch.utils.data import DataLoader
 
-from model.data import Batches, Example, SampleConfig
-from model.network.objective import Batch
-from model.processes import Place
-from model.recipe import Recipe, RecipeError
+from fairyring.model.data import Batches, Example, SampleConfig
+from fairyring.model.network.objective import Batch
+from fairyring.model.processes import Place
+from fairyring.model.recipe import Recipe, RecipeError
 
 
 def batches_of(

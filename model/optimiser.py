@@ -8,8 +8,8 @@ import torch
 from torch import Tensor, nn
 from torch.optim.swa_utils import AveragedModel
 
-from model.network.pr_solov2 import PRSOLOv2
-from model.recipe import Recipe
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.recipe import Recipe
 
 DROPS = ((0.75, 0.1), (0.92, 0.01))
 """Shares of the iterations, and the factor on the rate from there on."""

@@ -9,9 +9,9 @@ import numpy as np
 from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
-from model.geometry import Outline, Points, part_of_points, signed_area
-from model.settle import LEAST_PART
-from model.tracing import fit_polygon, join_holes
+from fairyring.model.geometry import Outline, Points, part_of_points, signed_area
+from fairyring.model.settle import LEAST_PART
+from fairyring.model.tracing import fit_polygon, join_holes
 
 TOLERANCE = 0.2
 """How far an outline may lie from the level line, pixels: it is given fewer vertices."""

@@ -18,7 +18,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 from PIL import Image, ImageFile, UnidentifiedImageError
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 # The limit is applied here instead, to the size in the header, before a pixel is decoded.
 Image.MAX_IMAGE_PIXELS = None

@@ -10,16 +10,16 @@ import torch
 from msgspec import Struct, field, structs
 from numpy.typing import NDArray
 
-from model.calibration import Calibration, calibrated, uncalibrated
-from model.geometry import Outline
-from model.network.decode import DecodeConfig, Instances, decode
-from model.network.fold import fold_batch_norms
-from model.network.pr_solov2 import Outputs, PRSOLOv2
-from model.network.refine import draw
-from model.outlines import outline_of_logits
-from model.raster import Rle, iou_matrix, rle_of_outline
-from model.settle import Window, distinct, settle
-from model.tiles import Tile, tiles_of
+from fairyring.model.calibration import Calibration, calibrated, uncalibrated
+from fairyring.model.geometry import Outline
+from fairyring.model.network.decode import DecodeConfig, Instances, decode
+from fairyring.model.network.fold import fold_batch_norms
+from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
+from fairyring.model.network.refine import draw
+from fairyring.model.outlines import outline_of_logits
+from fairyring.model.raster import Rle, iou_matrix, rle_of_outline
+from fairyring.model.settle import Window, distinct, settle
+from fairyring.model.tiles import Tile, tiles_of
 
 SLACK = 8.0
 """Pixels: two pieces that see a cap at a seam do not put its middle in the very same place."""

@@ -16,8 +16,8 @@ from msgspec.structs import astuple
 from numpy.typing import NDArray
 from pycocotools import mask as pycocotools_mask
 
-from model.crossing import area_if_plainly_simple, self_contact
-from model.geometry import (
+from fairyring.model.crossing import area_if_plainly_simple, self_contact
+from fairyring.model.geometry import (
     Circle,
     GeometryError,
     Mark,
@@ -30,8 +30,15 @@ from model.geometry import (
     signed_area,
     without_repeats,
 )
-from model.rle import checked_runs, cut_of_runs
-from model.tracing import Component, Loop, components_of_mask, fit_polygon, join_holes, knots_of_loop
+from fairyring.model.rle import checked_runs, cut_of_runs
+from fairyring.model.tracing import (
+    Component,
+    Loop,
+    components_of_mask,
+    fit_polygon,
+    join_holes,
+    knots_of_loop,
+)
 
 Mask = NDArray[np.uint8]
 Rle = dict[str, Any]

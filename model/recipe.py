@@ -8,9 +8,9 @@ from typing import Literal
 import msgspec
 from msgspec import Struct, field
 
-from model.crops import CropConfig
-from model.errors import FairyringError
-from model.network.config import GROUPS, LEVELS, NetworkConfig
+from fairyring.model.crops import CropConfig
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.config import GROUPS, LEVELS, NetworkConfig
 
 
 class RecipeError(FairyringError):

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import GeometryError
+from fairyring.model.geometry import GeometryError
 
 MAX_PIXELS = 1 << 30
 """No mask larger than this is decoded: a size in a file costs nothing to write."""

@@ -9,11 +9,11 @@ import msgspec
 import torch
 from torch.optim.swa_utils import AveragedModel
 
-from model.network.backbone import load_backbone
-from model.network.lite0 import imagenet_weights
-from model.network.pr_solov2 import PRSOLOv2
-from model.optimiser import average_of, freeze_stages, optimiser_of
-from model.recipe import Recipe
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.lite0 import imagenet_weights
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.optimiser import average_of, freeze_stages, optimiser_of
+from fairyring.model.recipe import Recipe
 
 
 @dataclass(kw_only=True)

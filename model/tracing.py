@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import Points, signed_area
+from fairyring.model.geometry import Points, signed_area
 
 STEPS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 """x, y of a crack by its heading; heading + 1 is a turn to the right, towards what is covered."""

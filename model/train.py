@@ -22,20 +22,20 @@ from msgspec import Struct
 from torch import nn
 from torch.nn.parallel import DistributedDataParallel
 
-from model import train_log
-from model.checkpoint import load_checkpoint, save_checkpoint
-from model.data import Example
-from model.errors import FairyringError
-from model.loading import batches_of
-from model.network.losses import DICE_WEIGHT
-from model.network.objective import Batch, Losses, losses_of
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.weights import save_weights
-from model.optimiser import freeze_statistics, rate_at, set_rate
-from model.processes import Place, together
-from model.recipe import Recipe
-from model.run import Run, new_network, start_run
-from model.validate import validate
+from fairyring.model import train_log
+from fairyring.model.checkpoint import load_checkpoint, save_checkpoint
+from fairyring.model.data import Example
+from fairyring.model.errors import FairyringError
+from fairyring.model.loading import batches_of
+from fairyring.model.network.losses import DICE_WEIGHT
+from fairyring.model.network.objective import Batch, Losses, losses_of
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.weights import save_weights
+from fairyring.model.optimiser import freeze_statistics, rate_at, set_rate
+from fairyring.model.processes import Place, together
+from fairyring.model.recipe import Recipe
+from fairyring.model.run import Run, new_network, start_run
+from fairyring.model.validate import validate
 
 BEST, FINAL, RUN, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
 SEEDS = 1_000_003

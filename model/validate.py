@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 import torch
 
-from model.calibration import Calibration, calibrated, fit_calibration
-from model.data import Example, read_rgb
-from model.documents import pages_of
-from model.evaluate.masks import evaluate_masks
-from model.evaluate.outcomes import joined, outcomes_of_page
-from model.network.pr_solov2 import PRSOLOv2
-from model.predict import Detection, PredictConfig, Predictor
-from model.raster import rle_of_outline
+from fairyring.model.calibration import Calibration, calibrated, fit_calibration
+from fairyring.model.data import Example, read_rgb
+from fairyring.model.documents import pages_of
+from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.evaluate.outcomes import joined, outcomes_of_page
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.predict import Detection, PredictConfig, Predictor
+from fairyring.model.raster import rle_of_outline
 
 Progress = Callable[[int, int, str], None]
 

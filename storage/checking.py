@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 from msgspec import structs
 
-from model.raster import check_mark, check_outline
-from storage.errors import StoreError
-from storage.records import Cap
+from fairyring.model.raster import check_mark, check_outline
+from fairyring.storage.errors import StoreError
+from fairyring.storage.records import Cap
 
 MAX_PARTS = 500
 MAX_POINTS = 20_000

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from msgspec import Struct
 from sqlalchemy import Connection, and_, select, union, update
 
-from storage.counting import recount
-from storage.records import Shape
-from storage.rows import values_of_fit
-from storage.schema import annotation, image, prediction
+from fairyring.storage.counting import recount
+from fairyring.storage.records import Shape
+from fairyring.storage.rows import values_of_fit
+from fairyring.storage.schema import annotation, image, prediction
 
 
 class Fit(Struct, frozen=True, kw_only=True):

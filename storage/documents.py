@@ -6,9 +6,9 @@ from typing import Any
 
 from sqlalchemy import Connection, exists, select
 
-from storage.offering import offered
-from storage.records import Annotation, Document, Prediction, Run
-from storage.rows import (
+from fairyring.storage.offering import offered
+from fairyring.storage.records import Annotation, Document, Prediction, Run
+from fairyring.storage.rows import (
     SELECT_ANNOTATIONS,
     SELECT_PREDICTIONS,
     AnySelect,
@@ -19,7 +19,7 @@ from storage.rows import (
     require_image,
     run_of,
 )
-from storage.schema import annotation, image, prediction, run
+from fairyring.storage.schema import annotation, image, prediction, run
 
 
 def load_document(connection: Connection, image_id: int) -> Document:

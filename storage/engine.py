@@ -11,7 +11,7 @@ from typing import Any
 from sqlalchemy import Engine, create_engine, event, exc
 from sqlalchemy.engine import make_url
 
-from storage.errors import StoreError
+from fairyring.storage.errors import StoreError
 
 log = logging.getLogger(__name__)
 

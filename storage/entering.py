@@ -8,18 +8,18 @@ from typing import Any
 from msgspec import Struct, structs
 from sqlalchemy import Connection, insert, select, update
 
-from model.geometry import polygon_of_shape
-from storage import schema
-from storage.bulk import insert_many
-from storage.clock import now
-from storage.counting import recount
-from storage.fitting import content_number
-from storage.formats.found import FoundCap
-from storage.images import sort_name
-from storage.placing import Photo
-from storage.predictions import saw
-from storage.records import Outline
-from storage.rows import ensure_category, load_categories, values_of_cap, values_of_fit
+from fairyring.model.geometry import polygon_of_shape
+from fairyring.storage import schema
+from fairyring.storage.bulk import insert_many
+from fairyring.storage.clock import now
+from fairyring.storage.counting import recount
+from fairyring.storage.fitting import content_number
+from fairyring.storage.formats.found import FoundCap
+from fairyring.storage.images import sort_name
+from fairyring.storage.placing import Photo
+from fairyring.storage.predictions import saw
+from fairyring.storage.records import Outline
+from fairyring.storage.rows import ensure_category, load_categories, values_of_cap, values_of_fit
 
 CHUNK = 500
 """Numbers asked for in one statement."""

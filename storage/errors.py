@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 
 class StoreError(FairyringError):

@@ -14,22 +14,22 @@ import msgspec
 from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
-from model.photo import probe, read
-from storage import schema
-from storage.documents import load_annotations, load_document, load_predictions
-from storage.errors import StoreError
-from storage.formats.coco_writing import (
+from fairyring.model.photo import probe, read
+from fairyring.storage import schema
+from fairyring.storage.documents import load_annotations, load_document, load_predictions
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.coco_writing import (
     annotation_entry,
     category_entry,
     image_entry,
     prediction_entry,
     write_document,
 )
-from storage.formats.found import Progress
-from storage.predictions import latest_run
-from storage.project import Project
-from storage.records import Annotation, Image, Prediction
-from storage.rows import image_of
+from fairyring.storage.formats.found import Progress
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.rows import image_of
 
 Only = Literal["annotated", "approved", "predicted", "all"]
 Cap = Annotation | Prediction

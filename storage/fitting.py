@@ -10,14 +10,14 @@ from hashlib import blake2b
 import msgspec
 from msgspec import structs
 
-from model.errors import FairyringError
-from model.geometry import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
-from model.raster import check_mark, check_outline
-from storage.checking import check_cap
-from storage.errors import StoreError
-from storage.formats.found import FoundCap, Problem
-from storage.placing import Photo
-from storage.records import Cap, Outline, Shape
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
+from fairyring.model.raster import check_mark, check_outline
+from fairyring.storage.checking import check_cap
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import FoundCap, Problem
+from fairyring.storage.placing import Photo
+from fairyring.storage.records import Cap, Outline, Shape
 
 SAME_CENTRE = 0.5
 """Pixels by which ``center`` may differ from the shape's centre without a word (files are rounded)."""

@@ -8,12 +8,12 @@ from typing import Any, Literal
 from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
 
-from storage.checking import check_name
-from storage.clock import now
-from storage.errors import StoreError
-from storage.records import Image, Status
-from storage.rows import AnyRow, AnySelect, image_of, require_image
-from storage.schema import comparison, image, status_change
+from fairyring.storage.checking import check_name
+from fairyring.storage.clock import now
+from fairyring.storage.errors import StoreError
+from fairyring.storage.records import Image, Status
+from fairyring.storage.rows import AnyRow, AnySelect, image_of, require_image
+from fairyring.storage.schema import comparison, image, status_change
 
 Sort = Literal["name", "added", "caps", "cdr"]
 STATUSES: tuple[Status, ...] = ("new", "annotated", "approved")

@@ -12,8 +12,8 @@ from typing import Literal
 from msgspec import Struct
 from sqlalchemy import Connection
 
-from storage.checking import check_name
-from storage.entering import (
+from fairyring.storage.checking import check_name
+from fairyring.storage.entering import (
     Entered,
     Labelled,
     enter_annotations,
@@ -22,14 +22,14 @@ from storage.entering import (
     refused_as_prediction,
     tell_more,
 )
-from storage.errors import StoreError
-from storage.formats.found import Problem, Progress
-from storage.intake import Intake, take_in
-from storage.placing import Photo, Staging, photos_of_project, staging
-from storage.predictions import add_run
-from storage.project import IMAGES, Project
-from storage.records import Run
-from storage.sources import Format, Sources, gather
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import Problem, Progress
+from fairyring.storage.intake import Intake, take_in
+from fairyring.storage.placing import Photo, Staging, photos_of_project, staging
+from fairyring.storage.predictions import add_run
+from fairyring.storage.project import IMAGES, Project
+from fairyring.storage.records import Run
+from fairyring.storage.sources import Format, Sources, gather
 
 As = Literal["annotations", "predictions"]
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from msgspec import Struct, field, structs
 
-from model.errors import FairyringError
-from storage.errors import StoreError
-from storage.fitting import fit_caps
-from storage.formats.found import FoundCap, FoundImage, Problem, Progress, UnusableError
-from storage.formats.values import base_name
-from storage.placing import Photo, examine, find_beside
-from storage.sources import Document, Sources
+from fairyring.model.errors import FairyringError
+from fairyring.storage.errors import StoreError
+from fairyring.storage.fitting import fit_caps
+from fairyring.storage.formats.found import FoundCap, FoundImage, Problem, Progress, UnusableError
+from fairyring.storage.formats.values import base_name
+from fairyring.storage.placing import Photo, examine, find_beside
+from fairyring.storage.sources import Document, Sources
 
 
 class Intake(Struct, kw_only=True):

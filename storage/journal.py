@@ -8,15 +8,15 @@ from hashlib import sha256
 from msgspec import Struct, json
 from sqlalchemy import Connection, insert, select, update
 
-from model.errors import FairyringError
-from storage import schema
-from storage.checking import check_cap, check_name
-from storage.clock import now
-from storage.counting import recount
-from storage.errors import StoreError
-from storage.project import Project
-from storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
-from storage.rows import (
+from fairyring.model.errors import FairyringError
+from fairyring.storage import schema
+from fairyring.storage.checking import check_cap, check_name
+from fairyring.storage.clock import now
+from fairyring.storage.counting import recount
+from fairyring.storage.errors import StoreError
+from fairyring.storage.project import Project
+from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
+from fairyring.storage.rows import (
     SELECT_ANNOTATIONS,
     annotation_of,
     ensure_category,

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import polygon_of_shape
-from model.raster import area_of_rle, iou_matrix, rle_of_outline
-from storage.records import Annotation, Image, Outline, Prediction
+from fairyring.model.geometry import polygon_of_shape
+from fairyring.model.raster import area_of_rle, iou_matrix, rle_of_outline
+from fairyring.storage.records import Annotation, Image, Outline, Prediction
 
 SAME = 0.5
 """IoU from which a prediction and an annotation are one cap."""

@@ -14,10 +14,10 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, select
 
-from model.photo import probe
-from storage import schema
-from storage.errors import StoreError
-from storage.formats.values import base_name
+from fairyring.model.photo import probe
+from fairyring.storage import schema
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.values import base_name
 
 INCOMING = ".incoming"
 

@@ -9,12 +9,12 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, insert, select, update
 
-from storage.checking import are_finite, check_cap, check_name
-from storage.clock import now
-from storage.counting import recount
-from storage.errors import StoreError
-from storage.records import Cap, Outline, Run, Shape
-from storage.rows import (
+from fairyring.storage.checking import are_finite, check_cap, check_name
+from fairyring.storage.clock import now
+from fairyring.storage.counting import recount
+from fairyring.storage.errors import StoreError
+from fairyring.storage.records import Cap, Outline, Run, Shape
+from fairyring.storage.rows import (
     ensure_category,
     latest_run_row,
     load_categories,
@@ -22,7 +22,7 @@ from storage.rows import (
     run_of,
     values_of_fit,
 )
-from storage.schema import image, prediction, run
+from fairyring.storage.schema import image, prediction, run
 
 
 class NewPrediction(Struct, frozen=True, kw_only=True):

@@ -18,11 +18,11 @@ from uuid import uuid4
 
 from sqlalchemy import Connection, insert, select
 
-from storage import schema
-from storage.clock import now
-from storage.engine import connect_engine, explained, warn_of_network_drive
-from storage.errors import StoreError
-from storage.upgrade import upgrade
+from fairyring.storage import schema
+from fairyring.storage.clock import now
+from fairyring.storage.engine import connect_engine, explained, warn_of_network_drive
+from fairyring.storage.errors import StoreError
+from fairyring.storage.upgrade import upgrade
 
 T = TypeVar("T")
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
-from storage.columns import Flag, Json, Real
-from storage.records import Cap, Mark, Outline, Shape
+from fairyring.storage.columns import Flag, Json, Real
+from fairyring.storage.records import Cap, Mark, Outline, Shape
 
 metadata = MetaData(
     naming_convention={

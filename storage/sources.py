@@ -10,10 +10,10 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from storage.errors import StoreError
-from storage.formats.coco import parse_coco
-from storage.formats.found import Found, Problem
-from storage.formats.labelme import parse_labelme
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.coco import parse_coco
+from fairyring.storage.formats.found import Found, Problem
+from fairyring.storage.formats.labelme import parse_labelme
 
 Format = Literal["auto", "images", "coco", "labelme"]
 

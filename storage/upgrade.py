@@ -12,8 +12,8 @@ from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import Connection
 
-from storage.engine import connect_engine, explained
-from storage.errors import StoreError
+from fairyring.storage.engine import connect_engine, explained
+from fairyring.storage.errors import StoreError
 
 
 def upgrade(url: str, *, source: Path, existing: Path | None = None) -> None:
@@ -28,7 +28,7 @@ def upgrade(url: str, *, source: Path, existing: Path | None = None) -> None:
         StoreError: made by a newer program, damaged, not writable.
     """
     config = Config()
-    config.set_main_option("script_location", "storage:migrations")
+    config.set_main_option("script_location", "fairyring.storage:migrations")
     head = ScriptDirectory.from_config(config).get_current_head()
     engine = connect_engine(url, write=True)
     try:

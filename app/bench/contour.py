@@ -15,13 +15,13 @@ from typing import Any
 import cv2
 import numpy as np
 
-from app.bench.timing import Row
-from app.commands.files import read_json
-from model.contour.coco import silhouettes_of
-from model.contour.methods import METHODS
-from model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
-from model.contour.silhouette import Silhouette
-from model.scene.clusters import Recipe, make_cluster
+from fairyring.app.bench.timing import Row
+from fairyring.app.commands.files import read_json
+from fairyring.model.contour.coco import silhouettes_of
+from fairyring.model.contour.methods import METHODS
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.scene.clusters import Recipe, make_cluster
 
 SEED = 70_000
 HEAVY = 0.6

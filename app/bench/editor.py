@@ -14,14 +14,14 @@ from pathlib import Path
 
 from playwright.sync_api import Browser
 
-from app.bench import stopwatch
-from app.bench.leafing import VIEWPORT, jump, leaf, measured_tab
-from app.bench.plain import synced_inserts
-from app.bench.projects import Bed, make_project
-from app.bench.serving import served
-from app.bench.tab import Point, Tab, centroid, chromium
-from app.bench.timing import Row, p95_row
-from storage.images import ImageFilter, list_images
+from fairyring.app.bench import stopwatch
+from fairyring.app.bench.leafing import VIEWPORT, jump, leaf, measured_tab
+from fairyring.app.bench.plain import synced_inserts
+from fairyring.app.bench.projects import Bed, make_project
+from fairyring.app.bench.serving import served
+from fairyring.app.bench.tab import Point, Tab, centroid, chromium
+from fairyring.app.bench.timing import Row, p95_row
+from fairyring.storage.images import ImageFilter, list_images
 
 Ids = dict[str, int]
 """Numbers of the images by file name."""

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Browser, ViewportSize
 
-from app.bench import stopwatch
-from app.bench.serving import Server
-from app.bench.tab import Tab
+from fairyring.app.bench import stopwatch
+from fairyring.app.bench.serving import Server
+from fairyring.app.bench.tab import Tab
 
 VIEWPORT: ViewportSize = {"width": 1500, "height": 900}
 LOOK_MS = 600

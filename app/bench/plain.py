@@ -5,7 +5,7 @@ from __future__ import annotations
 import sqlite3
 from pathlib import Path
 
-from app.bench.timing import milliseconds
+from fairyring.app.bench.timing import milliseconds
 
 
 def synced_inserts(path: Path, *, payload: str) -> list[float]:

@@ -13,8 +13,8 @@ import msgspec
 import numpy as np
 from msgspec import Struct
 
-from storage.importing import import_paths
-from storage.project import Project, create_project
+from fairyring.storage.importing import import_paths
+from fairyring.storage.project import Project, create_project
 
 
 class Bed(Struct, frozen=True, kw_only=True):

@@ -20,10 +20,10 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from model.photo import read
-from model.scene.bed import render_bed
-from model.scene.presets import PRESETS
-from model.scene.settings import Settings
+from fairyring.model.photo import read
+from fairyring.model.scene.bed import render_bed
+from fairyring.model.scene.presets import PRESETS
+from fairyring.model.scene.settings import Settings
 
 HIDDEN, LITTLE = 0.95, 0.6
 """A cap of less than this in sight is partly hidden; of less than that, little is in sight."""

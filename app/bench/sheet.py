@@ -8,10 +8,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.errors import FairyringError
-from model.photo import read
-from model.scene.bed import render_bed
-from model.scene.presets import PRESETS
+from fairyring.model.errors import FairyringError
+from fairyring.model.photo import read
+from fairyring.model.scene.bed import render_bed
+from fairyring.model.scene.presets import PRESETS
 
 TILE = (640, 360)
 ACROSS = 4

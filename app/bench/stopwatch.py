@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.bench.tab import Tab
+from fairyring.app.bench.tab import Tab
 
 SCRIPT = r"""
 (() => {

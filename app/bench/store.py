@@ -15,19 +15,19 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.leafing import leaf, measured_tab
-from app.bench.plain import synced_inserts
-from app.bench.projects import Bed, write_labels
-from app.bench.serving import served
-from app.bench.tab import chromium
-from app.bench.timing import Row, milliseconds, p95_row, row
-from app.editing import derive_edits
-from storage.documents import load_document
-from storage.images import ImageFilter, list_images
-from storage.importing import import_paths
-from storage.journal import commit
-from storage.project import DATABASE, Project, create_project
-from storage.records import Cap, Document, Edit
+from fairyring.app.bench.leafing import leaf, measured_tab
+from fairyring.app.bench.plain import synced_inserts
+from fairyring.app.bench.projects import Bed, write_labels
+from fairyring.app.bench.serving import served
+from fairyring.app.bench.tab import chromium
+from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
+from fairyring.app.editing import derive_edits
+from fairyring.storage.documents import load_document
+from fairyring.storage.images import ImageFilter, list_images
+from fairyring.storage.importing import import_paths
+from fairyring.storage.journal import commit
+from fairyring.storage.project import DATABASE, Project, create_project
+from fairyring.storage.records import Cap, Document, Edit
 
 
 def run(*, quick: bool = False) -> list[Row]:

@@ -8,8 +8,8 @@ from typing import Any
 
 from playwright.sync_api import Browser, Locator, Page, sync_playwright
 
-from app.bench.chromium import FLAGS, REMEDY, find
-from model.errors import FairyringError
+from fairyring.app.bench.chromium import FLAGS, REMEDY, find
+from fairyring.model.errors import FairyringError
 
 Point = tuple[float, float]
 WAIT_MS = 30_000

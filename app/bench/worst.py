@@ -16,14 +16,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.commands.files import FileError, read_json
-from model.contour.coco import silhouettes_of
-from model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
-from model.contour.result import ArcKind
-from model.contour.silhouette import Silhouette
-from model.evaluate.centres import centre_error
-from model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
-from model.photo import read
+from fairyring.app.commands.files import FileError, read_json
+from fairyring.model.contour.coco import silhouettes_of
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.result import ArcKind
+from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.evaluate.centres import centre_error
+from fairyring.model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
+from fairyring.model.photo import read
 
 COUNT, COLUMNS = 10, 5
 PANEL, CAPTION, LINE = 400, 112, 20

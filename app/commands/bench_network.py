@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.network import Device, OnDevice
-from app.commands.progress import shown_on_stderr
-from app.commands.rows import AsJson, print_rows
+from fairyring.app.commands.network import Device, OnDevice
+from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.rows import AsJson, print_rows
 
 if TYPE_CHECKING:
-    from app.bench.network.sets import LabelledPhotos
-    from model.predict import Predictor
+    from fairyring.app.bench.network.sets import LabelledPhotos
+    from fairyring.model.predict import Predictor
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -48,8 +48,8 @@ def success(
 
     Example: `fairyring bench network success --real photos --pictures examples`
     """
-    from app.bench.network import tables
-    from app.bench.network.pictures import draw_examples
+    from fairyring.app.bench.network import tables
+    from fairyring.app.bench.network.pictures import draw_examples
 
     rows = []
     for photos, predicted in _predicted(weights, beds, count, real, device):
@@ -73,7 +73,7 @@ def centres(
 
     Example: `fairyring bench network centres --real photos --json`
     """
-    from app.bench.network import tables
+    from fairyring.app.bench.network import tables
 
     rows = [
         row
@@ -91,10 +91,10 @@ def cost(
 
     Example: `fairyring bench network cost --device cpu`
     """
-    from app.bench.network.cost import cost_rows
-    from app.bench.network.sets import rendered
-    from app.predicting import network_of
-    from model.shipped import SHIPPED
+    from fairyring.app.bench.network.cost import cost_rows
+    from fairyring.app.bench.network.sets import rendered
+    from fairyring.app.predicting import network_of
+    from fairyring.model.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
     with _folder(beds) as folder, shown_on_stderr() as progress:
@@ -111,10 +111,10 @@ def ways(
 
     Example: `fairyring bench network ways --device cpu`
     """
-    from app.bench.network.sets import rendered
-    from app.bench.network.ways import way_rows
-    from model.device import device_of
-    from model.shipped import SHIPPED
+    from fairyring.app.bench.network.sets import rendered
+    from fairyring.app.bench.network.ways import way_rows
+    from fairyring.model.device import device_of
+    from fairyring.model.shipped import SHIPPED
 
     with _folder(beds) as folder, shown_on_stderr() as progress:
         _, photo = next(rendered("paper", folder, count=1, progress=progress).images())
@@ -137,9 +137,9 @@ def ablation(
 
     Example: `fairyring bench network ablation --out ablation --iterations 600`
     """
-    from app.bench.network.ablation import ablation_rows, variants
-    from app.bench.network.sets import rendered
-    from model.device import device_of
+    from fairyring.app.bench.network.ablation import ablation_rows, variants
+    from fairyring.app.bench.network.sets import rendered
+    from fairyring.model.device import device_of
 
     with shown_on_stderr() as progress:
         test = rendered("paper", out, count=count, progress=progress)
@@ -158,8 +158,8 @@ def _predicted(
     weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str
 ) -> Iterator[tuple[LabelledPhotos, dict[str, Any]]]:
     """Each set, and what the network sees in it."""
-    from app.bench.network.sets import TEST_BEDS, checked, rendered
-    from app.bench.network.tables import predicted_document
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.app.bench.network.tables import predicted_document
 
     predictor = _predictor(weights, device)
     with _folder(beds) as folder, shown_on_stderr() as progress:
@@ -172,10 +172,10 @@ def _predicted(
 
 
 def _predictor(weights: Path | None, device: str) -> Predictor:
-    from model.device import device_of
-    from model.network.weights import load_weights
-    from model.predict import Predictor
-    from model.shipped import SHIPPED
+    from fairyring.model.device import device_of
+    from fairyring.model.network.weights import load_weights
+    from fairyring.model.predict import Predictor
+    from fairyring.model.shipped import SHIPPED
 
     return Predictor(load_weights(weights or SHIPPED).network, device=device_of(device))
 

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from app.commands import bench_network
-from app.commands.contour import MethodName
-from app.commands.rows import AsJson, print_rows
+from fairyring.app.commands import bench_network
+from fairyring.app.commands.contour import MethodName
+from fairyring.app.commands.rows import AsJson, print_rows
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -28,7 +28,7 @@ def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
     Example: `fairyring bench store --json`
     """
-    from app.bench import store as bench
+    from fairyring.app.bench import store as bench
 
     print_rows("store", bench.run(quick=quick), as_json=as_json)
 
@@ -39,7 +39,7 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
     Example: `fairyring bench editor --json`
     """
-    from app.bench import editor as bench
+    from fairyring.app.bench import editor as bench
 
     print_rows("editor", bench.run(quick=quick), as_json=as_json)
 
@@ -60,8 +60,8 @@ def scene(
 
     Example: `fairyring bench scene --real photos --sheet sheet.png`
     """
-    from app.bench import scene as bench
-    from app.bench.sheet import draw_sheet
+    from fairyring.app.bench import scene as bench
+    from fairyring.app.bench.sheet import draw_sheet
 
     if sheet is not None:
         draw_sheet(sheet, real=real)
@@ -87,8 +87,8 @@ def contour(
 
     Example: `fairyring bench contour --real beds --pictures worst --method map --json`
     """
-    from app.bench import contour as bench
-    from app.bench.worst import draw_worst
+    from fairyring.app.bench import contour as bench
+    from fairyring.app.bench.worst import draw_worst
 
     if pictures is not None and real is None:
         raise typer.BadParameter("--pictures are of real photos: give their folder with --real.")

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from app.commands.files import named, read_json, write_json
-from app.commands.progress import shown_on_stderr
+from fairyring.app.commands.files import named, read_json, write_json
+from fairyring.app.commands.progress import shown_on_stderr
 
 Labels = Annotated[Path, typer.Argument(metavar="COCO.json[.gz]", help="COCO file with checked outlines.")]
 
@@ -35,8 +35,8 @@ def contour(
 
     Example: `fairyring contour masks.json --out centres.json --method map`
     """
-    from model.contour.coco import contour_document
-    from model.contour.priors import DEFAULT, read_priors
+    from fairyring.model.contour.coco import contour_document
+    from fairyring.model.contour.priors import DEFAULT, read_priors
 
     document = read_json(masks)
     chosen = read_priors(priors) if priors else DEFAULT
@@ -56,8 +56,8 @@ def priors(
 
     Example: `fairyring priors instances.json --out priors.json`
     """
-    from model.contour.estimate import estimate_priors
-    from model.contour.priors import write_priors
+    from fairyring.model.contour.estimate import estimate_priors
+    from fairyring.model.contour.priors import write_priors
 
     document = read_json(labels)
     with named(labels):

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from app.commands.progress import shown_on_stderr
-from app.commands.project import ProjectFolder
+from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.project import ProjectFolder
 
 
 def demo(
@@ -20,7 +20,7 @@ def demo(
 
     Example: `fairyring demo demo && fairyring serve demo`
     """
-    from app.demo import make_demo
+    from fairyring.app.demo import make_demo
 
     if (folder / "fairyring.toml").exists():
         typer.echo(f"{folder} is there already; delete the folder to start afresh.", err=True)

@@ -11,8 +11,8 @@ from typing import Annotated, Any
 
 import typer
 
-from app.commands.files import about, read_json
-from model.errors import FairyringError
+from fairyring.app.commands.files import about, read_json
+from fairyring.model.errors import FairyringError
 
 commands = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Measure predictions against truth.")
 
@@ -41,7 +41,7 @@ def masks(
 
     Example: `fairyring evaluate masks predictions.json truth.json --json`
     """
-    from model.evaluate.masks import evaluate_masks
+    from fairyring.model.evaluate.masks import evaluate_masks
 
     figures = _evaluated(evaluate_masks, predicted, truth)
     if as_json:
@@ -62,7 +62,7 @@ def centres(
 
     Example: `fairyring evaluate centres centres.json truth.json --by id --json`
     """
-    from model.evaluate.centres import evaluate_centres
+    from fairyring.model.evaluate.centres import evaluate_centres
 
     figures = _evaluated(partial(evaluate_centres, by=by.value), predicted, truth)
     if as_json:
@@ -75,7 +75,7 @@ def _evaluated(
     evaluate: Callable[[Any, Any], dict[str, Any]], predicted: Path, truth: Path
 ) -> dict[str, Any]:
     """The figures of two files, what is wrong with one of them told with its name."""
-    from model.documents import DocumentError
+    from fairyring.model.documents import DocumentError
 
     documents = read_json(predicted), read_json(truth)
     blamed = {"predicted": (predicted,), "truth": (truth,), None: (predicted, truth)}

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 
 class FileError(FairyringError):

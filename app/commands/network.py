@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.progress import shown_on_stderr
-from app.commands.project import AsJson, ProjectFolder
-from app.commands.stopping import stopped_by_sigterm
-from model.errors import FairyringError
+from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.project import AsJson, ProjectFolder
+from fairyring.app.commands.stopping import stopped_by_sigterm
+from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
-    from storage.project import Project
+    from fairyring.storage.project import Project
 
 INTERRUPTED = 130
 """Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""
@@ -77,7 +77,7 @@ def train(
     try:
         with shown_on_stderr(silent=not leads) as shown, stopped_by_sigterm(shown) as progress:
             # Torch and all takes a while to load.
-            from app.training import Asked, train_as_asked
+            from fairyring.app.training import Asked, train_as_asked
 
             asked = Asked(
                 config=config,
@@ -104,7 +104,7 @@ def train(
 
 
 def _after_interruption(out: Path) -> str:
-    from model.checkpoint import CHECKPOINT
+    from fairyring.model.checkpoint import CHECKPOINT
 
     if (out / CHECKPOINT).exists():
         return f"Stopped; the same command with --resume goes on with {out}."
@@ -138,13 +138,13 @@ def predict(
 
     Example: `fairyring predict beds --images "bed_top_*" --weights run/weights.safetensors`
     """
-    from storage.project import open_project
+    from fairyring.storage.project import open_project
 
     with open_project(folder) as project:
         wanted = _images_called(project, images)
         # Loading torch takes a while, which a wrong name need not wait for.
-        from app.predicting import network_of, predict_images
-        from app.weights import require_weights
+        from fairyring.app.predicting import network_of, predict_images
+        from fairyring.app.weights import require_weights
 
         network = network_of(weights or require_weights(project), device=device, least_score=least_score)
         stored: list[int] = []
@@ -166,7 +166,7 @@ def predict(
 
 
 def _images_called(project: Project, pattern: str) -> list[int]:
-    from storage.images import ImageFilter, get_image, list_ids
+    from fairyring.storage.images import ImageFilter, get_image, list_ids
 
     with project.read() as connection:
         images = [get_image(connection, number) for number in list_ids(connection, ImageFilter())]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import shown_on_stderr
 
 if TYPE_CHECKING:
-    from storage.importing import ImportReport
+    from fairyring.storage.importing import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
@@ -66,7 +66,7 @@ def init(
 
     Example: `fairyring init beds`
     """
-    from storage.project import create_project
+    from fairyring.storage.project import create_project
 
     create_project(folder, url=db).close()
     typer.echo(f"Made {folder}. Next: fairyring import {folder} PHOTOS", err=True)
@@ -90,9 +90,9 @@ def import_(
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
-    from app.derive import fill_in
-    from storage.importing import import_paths
-    from storage.project import open_project
+    from fairyring.app.derive import fill_in
+    from fairyring.storage.importing import import_paths
+    from fairyring.storage.project import open_project
 
     if form is not None and form not in tuple("abcdefgh"):
         raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
@@ -145,9 +145,9 @@ def export(
 
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
-    from app.derive import fill_in
-    from storage.exporting import export_coco
-    from storage.project import open_project
+    from fairyring.app.derive import fill_in
+    from fairyring.storage.exporting import export_coco
+    from fairyring.storage.project import open_project
 
     assert format_ is ExportFormat.coco
     with open_project(folder) as project, shown_on_stderr() as progress:
@@ -167,7 +167,7 @@ def backup(
 
     Example: `fairyring backup beds beds-monday.db`
     """
-    from storage.project import back_up, open_project
+    from fairyring.storage.project import back_up, open_project
 
     with open_project(folder) as project:
         back_up(project, out)

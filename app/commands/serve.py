@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from app.commands.project import ProjectFolder
+from fairyring.app.commands.project import ProjectFolder
 
 
 def serve(
@@ -21,8 +21,8 @@ def serve(
 
     Example: `fairyring serve beds --port 8080`
     """
-    from app.gateway.server import serve as run
-    from app.settings import load_settings
+    from fairyring.app.gateway.server import serve as run
+    from fairyring.app.settings import load_settings
 
     settings = load_settings(folder, file=config, host=host, port=port)
     run(folder, settings=settings)

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from app.commands.progress import Progress
+from fairyring.app.commands.progress import Progress
 
 
 @contextmanager

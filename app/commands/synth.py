@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.progress import shown_on_stderr
-from app.commands.project import LightSource
+from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.project import LightSource
 
 if TYPE_CHECKING:
-    from model.scene.settings import Settings
+    from fairyring.model.scene.settings import Settings
 
 
 def synth(
@@ -33,7 +33,7 @@ def synth(
 
     Example: `fairyring synth beds --count 100 --seed 7 --light side --form d`
     """
-    from model.scene.dataset import write_beds
+    from fairyring.model.scene.dataset import write_beds
 
     settings = _settings(preset, config, light=light, form=form)
     count = count or (480 if preset == "paper" else 24)
@@ -47,8 +47,8 @@ def synth(
 def _settings(
     preset: str, config: Path | None, *, light: list[LightSource] | None, form: list[str] | None
 ) -> Settings:
-    from model.scene.presets import preset as preset_of
-    from model.scene.settings import changed
+    from fairyring.model.scene.presets import preset as preset_of
+    from fairyring.model.scene.settings import changed
 
     settings = changed(preset_of(preset), _tables(config)) if config else preset_of(preset)
     chosen: dict[str, Any] = {}
@@ -62,7 +62,7 @@ def _settings(
 def _tables(config: Path) -> dict[str, Any]:
     import tomllib
 
-    from model.scene.settings import SceneError
+    from fairyring.model.scene.settings import SceneError
 
     try:
         return tomllib.loads(config.read_text())

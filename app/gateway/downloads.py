@@ -8,9 +8,9 @@ from collections.abc import Awaitable, Callable
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from app.exports import exports_folder
-from app.gateway.names import name_of
-from storage.project import Project
+from fairyring.app.exports import exports_folder
+from fairyring.app.gateway.names import name_of
+from fairyring.storage.project import Project
 
 _MADE_HERE = re.compile(r"[0-9a-f]{32}\.zip")
 

@@ -12,8 +12,8 @@ import msgspec
 from msgspec import Struct
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from app.editing import Refits, apply_edits
-from app.gateway.messages import (
+from fairyring.app.editing import Refits, apply_edits
+from fairyring.app.gateway.messages import (
     Edits,
     FromServer,
     Hello,
@@ -30,15 +30,15 @@ from app.gateway.messages import (
     Toggle,
     Welcome,
 )
-from app.gateway.names import name_of
-from app.opening import open_image, reopen, set_status, step
-from app.panels.callbacks import UNEXPECTED
-from app.panels.layout import build_panel
-from app.panels.view import toggle
-from app.session import MOST_UNSENT, Selection, Session
-from app.workspace import Workspace
-from model.errors import FairyringError
-from storage.records import Refused
+from fairyring.app.gateway.names import name_of
+from fairyring.app.opening import open_image, reopen, set_status, step
+from fairyring.app.panels.callbacks import UNEXPECTED
+from fairyring.app.panels.layout import build_panel
+from fairyring.app.panels.view import toggle
+from fairyring.app.session import MOST_UNSENT, Selection, Session
+from fairyring.app.workspace import Workspace
+from fairyring.model.errors import FairyringError
+from fairyring.storage.records import Refused
 
 log = logging.getLogger(__name__)
 

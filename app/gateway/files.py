@@ -9,9 +9,8 @@ from starlette.responses import Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-_APP = Path(__file__).resolve().parent.parent
-STATIC = next(folder for folder in (_APP / "static", _APP.parent / "static") if folder.is_dir())
-"""Inside the package where it was installed from a wheel, beside it in a checkout."""
+STATIC = Path(__file__).resolve().parents[2] / "static"
+"""Beside ``app``, in a checkout and where the wheel puts it."""
 
 
 class EditorFiles(StaticFiles):

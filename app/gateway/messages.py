@@ -9,7 +9,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from storage.records import Annotation, Cap, Document, Edit, Outcome, Prediction, Shape, Status
+from fairyring.storage.records import Annotation, Cap, Document, Edit, Outcome, Prediction, Shape, Status
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):

@@ -9,7 +9,7 @@ from urllib.parse import quote, unquote
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from app.gateway.files import STATIC
+from fairyring.app.gateway.files import STATIC
 
 COOKIE = "fairyring_name"
 LONGEST_NAME = 60

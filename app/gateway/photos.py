@@ -14,13 +14,13 @@ import PIL.Image
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from app.gateway.names import name_of
-from model import photo
-from model.errors import FairyringError
-from storage.errors import StoreError
-from storage.images import get_image
-from storage.project import Project
-from storage.records import Image
+from fairyring.app.gateway.names import name_of
+from fairyring.model import photo
+from fairyring.model.errors import FairyringError
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import get_image
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image
 
 FOR_EVER = "private, max-age=31536000, immutable"
 WIDTHS = (160, 500, 1000, 2000, 4000)

@@ -11,7 +11,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from app.gateway.names import name_of
+from fairyring.app.gateway.names import name_of
 
 log = logging.getLogger(__name__)
 

@@ -22,18 +22,18 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
-from app.gateway.downloads import downloads_of
-from app.gateway.editor import editor_of
-from app.gateway.files import EditorFiles
-from app.gateway.guard import LOOPBACK, Guard
-from app.gateway.names import name_page
-from app.gateway.photos import photos_of
-from app.gateway.relay import relay_to
-from app.gateway.shell import load_shell, shell_page
-from app.settings import Settings, load_settings
-from app.workspace import Workspace
-from model.errors import FairyringError
-from storage.project import open_project
+from fairyring.app.gateway.downloads import downloads_of
+from fairyring.app.gateway.editor import editor_of
+from fairyring.app.gateway.files import EditorFiles
+from fairyring.app.gateway.guard import LOOPBACK, Guard
+from fairyring.app.gateway.names import name_page
+from fairyring.app.gateway.photos import photos_of
+from fairyring.app.gateway.relay import relay_to
+from fairyring.app.gateway.shell import load_shell, shell_page
+from fairyring.app.settings import Settings, load_settings
+from fairyring.app.workspace import Workspace
+from fairyring.model.errors import FairyringError
+from fairyring.storage.project import open_project
 
 log = logging.getLogger(__name__)
 

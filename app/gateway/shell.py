@@ -20,8 +20,8 @@ import zstandard
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from app.gateway.names import ask_for_name, name_of
-from model.errors import FairyringError
+from fairyring.app.gateway.names import ask_for_name, name_of
+from fairyring.model.errors import FairyringError
 
 TITLE = "Fairyring"
 HEAD = """

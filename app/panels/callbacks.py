@@ -9,8 +9,8 @@ from typing import Any
 
 import viser
 
-from app.session import Session
-from model.errors import FairyringError
+from fairyring.app.session import Session
+from fairyring.model.errors import FairyringError
 
 log = logging.getLogger(__name__)
 

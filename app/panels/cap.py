@@ -7,20 +7,20 @@ from dataclasses import dataclass, replace
 
 from sqlalchemy import Connection
 
-from app.derive import Whole, whole_of
-from app.panels.callbacks import Redraw
-from app.panels.icons import icon
-from app.panels.markup import EMPTY, Content, Markup, element
-from app.panels.status import run_badge
-from app.review import compare_cap
-from app.scene import Scene
-from app.session import Session
-from app.workspace import Workspace
-from model.evaluate.centres import Pair
-from model.geometry import Circle, Polygon
-from storage.documents import load_prediction, load_predictions, load_run
-from storage.journal import Entry, history
-from storage.records import Annotation, Mark, Prediction, Run, Shape
+from fairyring.app.derive import Whole, whole_of
+from fairyring.app.panels.callbacks import Redraw
+from fairyring.app.panels.icons import icon
+from fairyring.app.panels.markup import EMPTY, Content, Markup, element
+from fairyring.app.panels.status import run_badge
+from fairyring.app.review import compare_cap
+from fairyring.app.scene import Scene
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
+from fairyring.model.evaluate.centres import Pair
+from fairyring.model.geometry import Circle, Polygon
+from fairyring.storage.documents import load_prediction, load_predictions, load_run
+from fairyring.storage.journal import Entry, history
+from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
 
 COMMANDS = {
     "accept": "Accept this prediction (A)",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.panels.markup import Markup
+from fairyring.app.panels.markup import Markup
 
 _PATHS = {
     "select": "M5 3l14 8-6 1.6L10 19z",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from app.panels import cap, images, jobs, predict, review, status, tools, view
-from app.panels.callbacks import Redrawing
-from app.session import Session
-from app.workspace import Workspace
+from fairyring.app.panels import cap, images, jobs, predict, review, status, tools, view
+from fairyring.app.panels.callbacks import Redrawing
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
 
 
 def build_panel(workspace: Workspace, session: Session) -> None:

@@ -7,15 +7,15 @@ from typing import get_args
 
 from sqlalchemy import Connection
 
-from app.panels.callbacks import Redraw, person_did
-from app.panels.markup import Markup, element
-from app.panels.status import run_badge
-from app.review import compare_work
-from app.session import Session
-from app.workspace import Workspace
-from storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
-from storage.predictions import latest_run
-from storage.records import Run
+from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.markup import Markup, element
+from fairyring.app.panels.status import run_badge
+from fairyring.app.review import compare_work
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
+from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.records import Run
 
 PAGE = 10
 MOST_IMAGES = 2000

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from app.panels.callbacks import Redraw
-from app.panels.icons import icon
-from app.panels.markup import Markup, element
-from app.session import Session
-from app.workspace import Workspace
-from storage.records import Run
+from fairyring.app.panels.callbacks import Redraw
+from fairyring.app.panels.icons import icon
+from fairyring.app.panels.markup import Markup, element
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
+from fairyring.storage.records import Run
 
 STATUS_WORDS = {"new": "to do", "annotated": "annotated", "approved": "approved"}
 

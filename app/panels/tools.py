@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from app.opening import set_status
-from app.panels.callbacks import person_did
-from app.panels.icons import icon
-from app.panels.markup import Markup, element
-from app.session import Session
-from app.workspace import Workspace
-from storage.records import Status
+from fairyring.app.opening import set_status
+from fairyring.app.panels.callbacks import person_did
+from fairyring.app.panels.icons import icon
+from fairyring.app.panels.markup import Markup, element
+from fairyring.app.session import Session
+from fairyring.app.workspace import Workspace
+from fairyring.storage.records import Status
 
 TOOLS = (
     ("select", "Select", "V"),

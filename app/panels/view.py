@@ -7,9 +7,9 @@ from typing import Any
 import msgspec
 import viser
 
-from app.panels.callbacks import Redraw, person_did
-from app.session import LAYERS, Session
-from app.workspace import Workspace
+from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.session import LAYERS, Session
+from fairyring.app.workspace import Workspace
 
 LABELS = {
     "photo": "Photo",

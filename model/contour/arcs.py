@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.result import Arc, ArcKind
-from model.contour.together import Together
+from fairyring.model.contour.result import Arc, ArcKind
+from fairyring.model.contour.together import Together
 
 HOLLOW = 3.0
 """A free point lies in a hollow if it is so many standard deviations inside the outline …"""

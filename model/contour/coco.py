@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from model.contour.priors import DEFAULT, Priors
-from model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
-from model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
-from model.errors import FairyringError
-from model.geometry import Circle, GeometryError
-from model.raster import check_outline
-from model.rle import checked_runs, cut_of_runs
+from fairyring.model.contour.priors import DEFAULT, Priors
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import Circle, GeometryError
+from fairyring.model.raster import check_outline
+from fairyring.model.rle import checked_runs, cut_of_runs
 
 OURS = ("center", "circle", "ellipse", "center_sd", "shape", "refusal")
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.rims import Rims
-from model.contour.silhouette import Silhouette
+from fairyring.model.contour.rims import Rims
+from fairyring.model.contour.silhouette import Silhouette
 
 REACH = (1.5, 3.0, 4.5)
 """How far outside a rim to look for a neighbour, the nearest first, pixels: outlines of masks leave gaps."""

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from msgspec import structs
 
-from model.contour.coco import ContourError, silhouettes_of
-from model.contour.harmonic import Array
-from model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
-from model.contour.priors import DEFAULT, Priors
-from model.contour.together import Together, fit_together
+from fairyring.model.contour.coco import ContourError, silhouettes_of
+from fairyring.model.contour.harmonic import Array
+from fairyring.model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
+from fairyring.model.contour.priors import DEFAULT, Priors
+from fairyring.model.contour.together import Together, fit_together
 
 LEAST_CAPS = 30
 IN_VIEW = 0.93

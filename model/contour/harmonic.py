@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.priors import Priors
+from fairyring.model.contour.priors import Priors
 
 Array = NDArray[np.floating]
 

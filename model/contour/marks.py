@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from model.contour.ellipse import distinct_points, least_squares_ellipse
-from model.geometry import Circle, Ellipse, Points, Polygon
+from fairyring.model.contour.ellipse import distinct_points, least_squares_ellipse
+from fairyring.model.geometry import Circle, Ellipse, Points, Polygon
 
 
 def whole_of_mark(mark: Circle | Ellipse | Polygon) -> Circle | Ellipse | None:

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.arcs import arcs_of, kinds_of
-from model.contour.circle import enclosing_circle
-from model.contour.ellipse import grown, least_squares_ellipse, mean_radius
-from model.contour.harmonic import Array, Outlines
-from model.contour.order import overlap_order
-from model.contour.paper import LITERAL, PAPER, Reading, reconstruct_contour
-from model.contour.priors import DEFAULT, Priors
-from model.contour.result import Reconstruction, ShapeKind
-from model.contour.silhouette import RIM_INSET, Silhouette, contours_of
-from model.contour.together import Together, fit_together
-from model.geometry import Circle, Ellipse, Points, canonical_ellipse
+from fairyring.model.contour.arcs import arcs_of, kinds_of
+from fairyring.model.contour.circle import enclosing_circle
+from fairyring.model.contour.ellipse import grown, least_squares_ellipse, mean_radius
+from fairyring.model.contour.harmonic import Array, Outlines
+from fairyring.model.contour.order import overlap_order
+from fairyring.model.contour.paper import LITERAL, PAPER, Reading, reconstruct_contour
+from fairyring.model.contour.priors import DEFAULT, Priors
+from fairyring.model.contour.result import Reconstruction, ShapeKind
+from fairyring.model.contour.silhouette import RIM_INSET, Silhouette, contours_of
+from fairyring.model.contour.together import Together, fit_together
+from fairyring.model.geometry import Circle, Ellipse, Points, canonical_ellipse
 
 ELLIPSE_FROM_DEG = 200.0
 """With less of the rim in sight than this, a circle is the better mark (section 5.2's C* of 0.6)."""

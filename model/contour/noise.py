@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from model.contour.contact import Contact
-from model.contour.harmonic import Array, Evidence, Fit
-from model.contour.priors import Priors
-from model.contour.rims import BINS, Rims
+from fairyring.model.contour.contact import Contact
+from fairyring.model.contour.harmonic import Array, Evidence, Fit
+from fairyring.model.contour.priors import Priors
+from fairyring.model.contour.rims import BINS, Rims
 
 FIRST_NOISE = 0.8
 LEAST_NOISE = 0.25

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.contact import Contact
-from model.contour.harmonic import Fit
-from model.contour.rims import Rims
+from fairyring.model.contour.contact import Contact
+from fairyring.model.contour.harmonic import Fit
+from fairyring.model.contour.rims import Rims
 
 INDEPENDENT = 12.0
 """Length of outline per independent sample, pixels."""

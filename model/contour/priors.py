@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 
 class Priors(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.silhouette import Silhouette, contours_of
-from model.geometry import Points
+from fairyring.model.contour.silhouette import Silhouette, contours_of
+from fairyring.model.geometry import Points
 
 BINS = 48
 LEAST_PART = 0.1

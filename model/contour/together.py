@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from model.contour.contact import Contact, contact_of
-from model.contour.harmonic import Array, Evidence, Fit, Outlines, fit_outlines
-from model.contour.noise import FIRST_NOISE, LEAST_NOISE, deviation, expected_power, power
-from model.contour.order import Meetings, meetings_of, seen_share
-from model.contour.priors import Priors
-from model.contour.rims import Rims, rims_of
-from model.contour.silhouette import Silhouette
+from fairyring.model.contour.contact import Contact, contact_of
+from fairyring.model.contour.harmonic import Array, Evidence, Fit, Outlines, fit_outlines
+from fairyring.model.contour.noise import FIRST_NOISE, LEAST_NOISE, deviation, expected_power, power
+from fairyring.model.contour.order import Meetings, meetings_of, seen_share
+from fairyring.model.contour.priors import Priors
+from fairyring.model.contour.rims import Rims, rims_of
+from fairyring.model.contour.silhouette import Silhouette
 
 FIRST_GLANCE = 0.3
 """How probable it is that a border is one's own rim, before anything is known."""

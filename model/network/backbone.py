@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from torch import Tensor, nn
 
-from model.errors import FairyringError
-from model.network import lite0, resnet
-from model.network.config import Backbone
+from fairyring.model.errors import FairyringError
+from fairyring.model.network import lite0, resnet
+from fairyring.model.network.config import Backbone
 
 Normalisation = tuple[tuple[float, float, float], tuple[float, float, float]]
 """Mean and standard deviation of RGB in [0, 1]."""

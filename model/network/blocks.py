@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from torch import nn
 
-from model.network.config import GROUPS
+from fairyring.model.network.config import GROUPS
 
 
 def conv_norm_relu(inputs: int, outputs: int, *, kernel: int = 3) -> nn.Sequential:

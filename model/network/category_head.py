@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from torch import Tensor, nn
 
-from model.network.blocks import conv_norm_relu, start_small
+from fairyring.model.network.blocks import conv_norm_relu, start_small
 
 PRIOR = 0.01
 """Share of cells that hold a cap before anything is learnt: many empty ones do not drown the loss."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from model.network.config import FRAME
+from fairyring.model.network.config import FRAME
 
 
 def with_coordinates(features: Tensor, origins: Tensor, *, extent: tuple[int, int]) -> Tensor:

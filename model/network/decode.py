@@ -8,11 +8,11 @@ import torch
 from msgspec import Struct
 from torch import Tensor
 
-from model.network.config import NetworkConfig
-from model.network.dynamic_conv import mask_logits
-from model.network.matrix_nms import matrix_nms, points_nms
-from model.network.pr_solov2 import Outputs
-from model.network.reach import middles_of, reach_of, within_reach
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.dynamic_conv import mask_logits
+from fairyring.model.network.matrix_nms import matrix_nms, points_nms
+from fairyring.model.network.pr_solov2 import Outputs
+from fairyring.model.network.reach import middles_of, reach_of, within_reach
 
 LEVEL_STRIDES = (8, 8, 16, 32, 32)
 """A mask of no more cells than this, at a mask stride of 4 photo pixels, is dropped."""

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 from torch import Tensor, nn
 
-from model.network.blocks import conv_norm_relu, start_small
+from fairyring.model.network.blocks import conv_norm_relu, start_small
 
 
 class KernelHead(nn.Module):

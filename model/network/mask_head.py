@@ -8,8 +8,8 @@ from typing import cast
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from model.network.blocks import conv_norm_relu, start_small
-from model.network.coordinates import with_coordinates
+from fairyring.model.network.blocks import conv_norm_relu, start_small
+from fairyring.model.network.coordinates import with_coordinates
 
 COARSEST = 3
 """P5, which is given coordinates."""

@@ -8,15 +8,15 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
-from model.network.boxes import boxes_of, with_margin
-from model.network.config import NetworkConfig
-from model.network.dynamic_conv import mask_logits
-from model.network.losses import DICE_WEIGHT, dice_loss, focal_loss, point_loss
-from model.network.point_rend import Queries
-from model.network.point_sampling import sample_maps, training_points
-from model.network.pr_solov2 import Outputs, PRSOLOv2
-from model.network.reach import middles_of, reach_of, within_reach
-from model.network.targets import IGNORED
+from fairyring.model.network.boxes import boxes_of, with_margin
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.dynamic_conv import mask_logits
+from fairyring.model.network.losses import DICE_WEIGHT, dice_loss, focal_loss, point_loss
+from fairyring.model.network.point_rend import Queries
+from fairyring.model.network.point_sampling import sample_maps, training_points
+from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
+from fairyring.model.network.reach import middles_of, reach_of, within_reach
+from fairyring.model.network.targets import IGNORED
 
 POINTS = 196
 """Drawn on each cap (PointRend's training default)."""

@@ -13,9 +13,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from model.network.blocks import start_small
-from model.network.config import NetworkConfig
-from model.network.point_sampling import sample_maps
+from fairyring.model.network.blocks import start_small
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.point_sampling import sample_maps
 
 CUE_CHANNELS = 64
 LAYERS = 3

@@ -8,16 +8,16 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from model.network.backbone import build_backbone, normalisation_of
-from model.network.category_head import CategoryHead
-from model.network.config import LEVELS, NetworkConfig
-from model.network.coordinates import with_coordinates
-from model.network.fpn import FeaturePyramid
-from model.network.kernel_head import KernelHead
-from model.network.mask_head import MaskHead
-from model.network.point_rend import PointHead, PointMaps
-from model.network.semantic_point_rend import SemanticPointRend, SharpFeature
-from model.network.targets import grid_shape
+from fairyring.model.network.backbone import build_backbone, normalisation_of
+from fairyring.model.network.category_head import CategoryHead
+from fairyring.model.network.config import LEVELS, NetworkConfig
+from fairyring.model.network.coordinates import with_coordinates
+from fairyring.model.network.fpn import FeaturePyramid
+from fairyring.model.network.kernel_head import KernelHead
+from fairyring.model.network.mask_head import MaskHead
+from fairyring.model.network.point_rend import PointHead, PointMaps
+from fairyring.model.network.semantic_point_rend import SemanticPointRend, SharpFeature
+from fairyring.model.network.targets import grid_shape
 
 P4_LEVEL = 2
 

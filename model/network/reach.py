@@ -5,7 +5,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from model.network.config import NetworkConfig
+from fairyring.model.network.config import NetworkConfig
 
 REACH = 2 / 3
 """Of the largest √(box area) of a level: half of it, the way from cell to mass centre, and some for long

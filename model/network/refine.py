@@ -11,9 +11,9 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from model.network.boxes import main_boxes_of, with_margin
-from model.network.decode import Instances
-from model.network.point_rend import PointHead, PointMaps, Queries
+from fairyring.model.network.boxes import main_boxes_of, with_margin
+from fairyring.model.network.decode import Instances
+from fairyring.model.network.point_rend import PointHead, PointMaps, Queries
 
 POINTS_PER_SIDE = 8
 """Points seen anew in each doubling, for each pixel of the window's side: 784 at 98 pixels, 2048 at 256."""

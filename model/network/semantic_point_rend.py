@@ -13,8 +13,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from model.network.config import NetworkConfig
-from model.network.point_sampling import sample_maps
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.point_sampling import sample_maps
 
 COARSEST_STRIDE, STEPS = 16, 2
 POINTS = 2048

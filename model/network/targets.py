@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from model.network.config import LEVELS, NetworkConfig
+from fairyring.model.network.config import LEVELS, NetworkConfig
 
 CENTRE_REGION = 0.2
 """Share of a cap's box whose cells are positive, about the mass centre."""

@@ -18,9 +18,9 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save
 from torch import Tensor
 
-from model.errors import FairyringError
-from model.network.config import NetworkConfig
-from model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.pr_solov2 import PRSOLOv2
 
 FORMAT = "fairyring-pr-solov2-1"
 

@@ -8,19 +8,28 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.caps import Cap, shape_caps
-from model.scene.growth import Rectangle, Stand, grow
-from model.scene.layers import Layer, Owners, Seen, look_at, own_pixels, stack_layers, strips, window
-from model.scene.lens import draw_shot, expose
-from model.scene.light import Light, Shade, cast_shade, draw_light, shine
-from model.scene.pixels import Image, lay_over
-from model.scene.presets import with_form
-from model.scene.settings import LightSource, Settings
-from model.scene.skin import bend_normals, dress_cap, dress_stalk
-from model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
-from model.scene.stalks import shape_stalks
-from model.scene.truth import BedCap, tell_truth
-from model.scene.view import View, bounds_of_ground, hang_camera, see_ground
+from fairyring.model.scene.caps import Cap, shape_caps
+from fairyring.model.scene.growth import Rectangle, Stand, grow
+from fairyring.model.scene.layers import (
+    Layer,
+    Owners,
+    Seen,
+    look_at,
+    own_pixels,
+    stack_layers,
+    strips,
+    window,
+)
+from fairyring.model.scene.lens import draw_shot, expose
+from fairyring.model.scene.light import Light, Shade, cast_shade, draw_light, shine
+from fairyring.model.scene.pixels import Image, lay_over
+from fairyring.model.scene.presets import with_form
+from fairyring.model.scene.settings import LightSource, Settings
+from fairyring.model.scene.skin import bend_normals, dress_cap, dress_stalk
+from fairyring.model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
+from fairyring.model.scene.stalks import shape_stalks
+from fairyring.model.scene.truth import BedCap, tell_truth
+from fairyring.model.scene.view import View, bounds_of_ground, hang_camera, see_ground
 
 
 class Bed(NamedTuple):

@@ -14,11 +14,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import part_of_points
-from model.scene.growth import Floats, Stand, pairs_within
-from model.scene.pixels import Image, clipped
-from model.scene.settings import Growth
-from model.scene.view import View, project, turn
+from fairyring.model.geometry import part_of_points
+from fairyring.model.scene.growth import Floats, Stand, pairs_within
+from fairyring.model.scene.pixels import Image, clipped
+from fairyring.model.scene.settings import Growth
+from fairyring.model.scene.view import View, project, turn
 
 Box = tuple[int, int, int, int]
 """left, top, right, bottom in whole pixels; right and bottom are outside."""

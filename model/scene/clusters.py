@@ -14,9 +14,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.contour.silhouette import RIM_INSET
-from model.geometry import Ellipse, Points, canonical_ellipse, centres_of_pixels, part_of_points, signed_area
-from model.raster import mask_of_outline
+from fairyring.model.contour.silhouette import RIM_INSET
+from fairyring.model.geometry import (
+    Ellipse,
+    Points,
+    canonical_ellipse,
+    centres_of_pixels,
+    part_of_points,
+    signed_area,
+)
+from fairyring.model.raster import mask_of_outline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

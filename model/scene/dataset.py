@@ -19,10 +19,10 @@ import cv2
 import msgspec
 import msgspec.structs
 
-from model.geometry import area_of_outline, bounds_of_outline
-from model.scene.bed import Bed, render_bed
-from model.scene.settings import SceneError, Settings
-from model.scene.truth import BedCap
+from fairyring.model.geometry import area_of_outline, bounds_of_outline
+from fairyring.model.scene.bed import Bed, render_bed
+from fairyring.model.scene.settings import SceneError, Settings
+from fairyring.model.scene.truth import BedCap
 
 Progress = Callable[[int, int, str], None]
 """Called with (done, total, what is being done)."""

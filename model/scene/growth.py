@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.settings import Growth
+from fairyring.model.scene.settings import Growth
 
 Floats = NDArray[np.float64]
 Rectangle = tuple[float, float, float, float]

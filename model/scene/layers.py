@@ -9,10 +9,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.geometry import bounds_of_outline
-from model.raster import mask_of_outline
-from model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
-from model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
+from fairyring.model.geometry import bounds_of_outline
+from fairyring.model.raster import mask_of_outline
+from fairyring.model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
+from fairyring.model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
 
 Owners = NDArray[np.int32]
 """(rows, columns): 0 soil, k + 1 the cap of mushroom k, -(k + 1) its stalk."""

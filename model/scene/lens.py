@@ -10,10 +10,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene import textures
-from model.scene.layers import strips, window
-from model.scene.pixels import Image, clipped, planes
-from model.scene.settings import Camera
+from fairyring.model.scene import textures
+from fairyring.model.scene.layers import strips, window
+from fairyring.model.scene.pixels import Image, clipped, planes
+from fairyring.model.scene.settings import Camera
 
 LEVELS = 4096
 SATURATION = 1.6

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from model.scene.settings import Camera, Growth, SceneError, Settings, Skin, Soil
+from fairyring.model.scene.settings import Camera, Growth, SceneError, Settings, Skin, Soil
 
 PRESETS: dict[str, Settings] = {
     "default": Settings(),

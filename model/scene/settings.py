@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 import msgspec
 from msgspec import Meta, Struct, field
 
-from model.errors import FairyringError
+from fairyring.model.errors import FairyringError
 
 LightSource = Literal["top", "side", "dark"]
 LIGHTS: tuple[LightSource, ...] = ("top", "side", "dark")

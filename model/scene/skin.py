@@ -11,10 +11,10 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from model.scene import textures
-from model.scene.caps import Cap, Surface
-from model.scene.pixels import Image, clipped, lay_over, mixed, planes, step, tinted
-from model.scene.settings import Skin
+from fairyring.model.scene import textures
+from fairyring.model.scene.caps import Cap, Surface
+from fairyring.model.scene.pixels import Image, clipped, lay_over, mixed, planes, step, tinted
+from fairyring.model.scene.settings import Skin
 
 WHITE = np.array([0.85, 0.825, 0.81], np.float32)
 BROWN = np.array([0.075, 0.165, 0.33], np.float32)

@@ -8,12 +8,12 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from model.scene import textures
-from model.scene.growth import Floats
-from model.scene.layers import strips, window
-from model.scene.pixels import Image, clipped, lay_over, planes, step, tinted
-from model.scene.settings import Soil
-from model.scene.view import Ground, View, project
+from fairyring.model.scene import textures
+from fairyring.model.scene.growth import Floats
+from fairyring.model.scene.layers import strips, window
+from fairyring.model.scene.pixels import Image, clipped, lay_over, planes, step, tinted
+from fairyring.model.scene.settings import Soil
+from fairyring.model.scene.view import Ground, View, project
 
 PEAT = np.array([0.0200, 0.0165, 0.0160], np.float32)
 LOAM = np.array([0.022, 0.034, 0.050], np.float32)

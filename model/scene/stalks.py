@@ -8,10 +8,10 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from model.scene.caps import Box, Surface
-from model.scene.growth import Stand
-from model.scene.pixels import Image, clipped
-from model.scene.view import View, project
+from fairyring.model.scene.caps import Box, Surface
+from fairyring.model.scene.growth import Stand
+from fairyring.model.scene.pixels import Image, clipped
+from fairyring.model.scene.view import View, project
 
 THICKNESS = (0.42, 0.66)
 """Half the width under the cap, in radii of the cap: least and most, of a grown one."""

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.contour.ellipse import least_squares_ellipse
-from model.geometry import Ellipse, Outline, part_of_points, points_of_part
-from model.raster import outline_of_mask
-from model.scene.caps import Box, Cap, polygon_of_cap
-from model.scene.layers import Owners, Seen, window
+from fairyring.model.contour.ellipse import least_squares_ellipse
+from fairyring.model.geometry import Ellipse, Outline, part_of_points, points_of_part
+from fairyring.model.raster import outline_of_mask
+from fairyring.model.scene.caps import Box, Cap, polygon_of_cap
+from fairyring.model.scene.layers import Owners, Seen, window
 
 
 class BedCap(NamedTuple):

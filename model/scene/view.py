@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.scene.growth import Floats, Rectangle
+from fairyring.model.scene.growth import Floats, Rectangle
 
 
 class View(NamedTuple):

@@ -23,13 +23,13 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from model.geometry import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
-from model.raster import check_rle, outline_of_rle
-from storage.checking import MAX_NAME, MAX_ORDER
-from storage.errors import StoreError
-from storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
-from storage.formats.values import base_name, flag, kept, number, numbers, read_json, size, text
-from storage.records import Cap, Mark, Outline, Shape
+from fairyring.model.geometry import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
+from fairyring.model.raster import check_rle, outline_of_rle
+from fairyring.storage.checking import MAX_NAME, MAX_ORDER
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
+from fairyring.storage.formats.values import base_name, flag, kept, number, numbers, read_json, size, text
+from fairyring.storage.records import Cap, Mark, Outline, Shape
 
 T = TypeVar("T")
 

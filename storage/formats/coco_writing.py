@@ -12,7 +12,7 @@ from typing import Any, BinaryIO
 import msgspec
 import numpy as np
 
-from model.geometry import (
+from fairyring.model.geometry import (
     Circle,
     Ellipse,
     Polygon,
@@ -21,7 +21,7 @@ from model.geometry import (
     keypoint_of_centre,
     polygon_of_shape,
 )
-from storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
+from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
 
 DECIMALS = 4
 KEYPOINTS = ["centre"]

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from storage.records import Cap, Shape
+from fairyring.storage.records import Cap, Shape
 
 Progress = Callable[[int, int, str], None]
 """Called with how much is done, of how much, and what; whatever it raises ends the work cleanly."""

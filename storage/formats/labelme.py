@@ -11,12 +11,12 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from model.geometry import Circle, Polygon
-from storage.checking import MAX_NAME
-from storage.errors import StoreError
-from storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
-from storage.formats.values import kept, number, numbers, read_json, size
-from storage.records import Cap, Mark
+from fairyring.model.geometry import Circle, Polygon
+from fairyring.storage.checking import MAX_NAME
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
+from fairyring.storage.formats.values import kept, number, numbers, read_json, size
+from fairyring.storage.records import Cap, Mark
 
 SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
 IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "imageWidth"}

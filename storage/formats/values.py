@@ -8,8 +8,8 @@ from typing import Any
 
 import msgspec
 
-from storage.errors import StoreError
-from storage.formats.found import UnusableError
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import UnusableError
 
 
 def read_json(data: bytes, *, file: str) -> Any:

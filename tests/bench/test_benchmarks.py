@@ -10,10 +10,10 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from app.bench import editor, store
-from app.bench.timing import Row, p95_row, row
-from app.commands.benchmarks import commands
-from model.contour.methods import METHODS
+from fairyring.app.bench import editor, store
+from fairyring.app.bench.timing import Row, p95_row, row
+from fairyring.app.commands.benchmarks import commands
+from fairyring.model.contour.methods import METHODS
 
 HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", "rich", "playwright"}
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser
 
-from app.bench.serving import Server
-from app.bench.tab import Tab, chromium
-from app.demo import make_demo
+from fairyring.app.bench.serving import Server
+from fairyring.app.bench.tab import Tab, chromium
+from fairyring.app.demo import make_demo
 
 
 @pytest.fixture(scope="module")

@@ -13,11 +13,11 @@ import pytest
 from pycocotools.coco import COCO
 from typer.testing import CliRunner
 
-from app.bench.serving import Server
-from app.bench.tab import Tab, centroid
-from app.cli import app
-from model.scene.dataset import write_beds
-from model.scene.presets import preset
+from fairyring.app.bench.serving import Server
+from fairyring.app.bench.tab import Tab, centroid
+from fairyring.app.cli import app
+from fairyring.model.scene.dataset import write_beds
+from fairyring.model.scene.presets import preset
 
 
 def fairyring(*words: str | Path) -> str:

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from app.bench.serving import Server, served
-from app.bench.tab import Tab
-from app.cli import app
-from storage.documents import load_document
-from storage.images import ImageFilter, list_ids
-from storage.importing import import_paths
-from storage.project import create_project, open_project
+from fairyring.app.bench.serving import Server, served
+from fairyring.app.bench.tab import Tab
+from fairyring.app.cli import app
+from fairyring.storage.documents import load_document
+from fairyring.storage.images import ImageFilter, list_ids
+from fairyring.storage.importing import import_paths
+from fairyring.storage.project import create_project, open_project
 from tests.unit.app.sighted import write_weights
 
 PHOTOS = 12

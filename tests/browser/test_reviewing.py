@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.serving import Server
-from app.bench.tab import Tab
-from model.geometry import Circle
-from storage.documents import load_document
-from storage.images import ImageFilter, list_images
-from storage.journal import Derived, commit
-from storage.project import open_project
-from storage.records import Cap, Edit
+from fairyring.app.bench.serving import Server
+from fairyring.app.bench.tab import Tab
+from fairyring.model.geometry import Circle
+from fairyring.storage.documents import load_document
+from fairyring.storage.images import ImageFilter, list_images
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import open_project
+from fairyring.storage.records import Cap, Edit
 
 OFF_PX = 6.4
 

@@ -13,19 +13,19 @@ import cv2
 import numpy as np
 import pytest
 
-from storage.documents import load_annotations
-from storage.importing import import_paths
-from storage.journal import history
-from storage.project import create_project, open_project
+from fairyring.storage.documents import load_annotations
+from fairyring.storage.importing import import_paths
+from fairyring.storage.journal import history
+from fairyring.storage.project import create_project, open_project
 
 ROOT = Path(__file__).parents[2]
 
 WRITER = """
 import sys
 from pathlib import Path
-from storage.journal import Derived, commit
-from storage.project import open_project
-from storage.records import Accepted, Cap, Edit
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import open_project
+from fairyring.storage.records import Accepted, Cap, Edit
 
 folder, name, count = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
 cap = Cap(visible=[[10.0, 10.0, 30.0, 10.0, 30.0, 30.0]])
@@ -41,8 +41,8 @@ with open_project(folder) as project:
 IMPORTER = """
 import os, signal, sys
 from pathlib import Path
-from storage import importing
-from storage.project import open_project
+from fairyring.storage import importing
+from fairyring.storage.project import open_project
 
 def die(*_, **__):
     os.kill(os.getpid(), signal.SIGKILL)

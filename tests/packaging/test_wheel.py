@@ -24,10 +24,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_the_wheel_carries_the_editor_the_weights_and_the_migrations(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
-    assert "app/static/editor/main.js" in names
-    assert {f"model/weights/{file.name}" for file in (TOP / "model" / "weights").iterdir()} <= names
-    assert any(name.startswith("storage/migrations/versions/") for name in names)
-    assert not any(name.startswith(("tests/", "static/")) for name in names)
+    assert "fairyring/static/editor/main.js" in names
+    assert {f"fairyring/model/weights/{file.name}" for file in (TOP / "model" / "weights").iterdir()} <= names
+    assert any(name.startswith("fairyring/storage/migrations/versions/") for name in names)
+    assert not any(name.startswith(("app/", "model/", "storage/", "static/", "tests/")) for name in names)
 
 
 def test_the_installed_wheel_makes_imports_and_exports_a_project(wheel: Path, tmp_path: Path) -> None:
@@ -44,7 +44,7 @@ def test_the_installed_wheel_makes_imports_and_exports_a_project(wheel: Path, tm
         return subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True)
 
     where = subprocess.check_output(
-        [python, "-c", "import app; print(app.__file__)"], cwd=tmp_path, text=True
+        [python, "-c", "import fairyring.app; print(fairyring.app.__file__)"], cwd=tmp_path, text=True
     )
     assert str(tmp_path) in where
     fairyring("demo", "beds", "--count", "1")

@@ -8,11 +8,17 @@ from pathlib import Path
 import pytest
 
 TOP = Path(__file__).parents[2]
-OURS = ("app", "model", "storage", "static", "tests")
+OURS = ("fairyring", "app", "model", "storage", "static", "tests")
 ALLOWED = {
-    "app": ("app", "storage", "model"),
-    "storage": ("storage", "model.geometry", "model.raster", "model.photo", "model.errors"),
-    "model": ("model",),
+    "app": ("fairyring.app", "fairyring.storage", "fairyring.model"),
+    "storage": (
+        "fairyring.storage",
+        "fairyring.model.geometry",
+        "fairyring.model.raster",
+        "fairyring.model.photo",
+        "fairyring.model.errors",
+    ),
+    "model": ("fairyring.model",),
 }
 HEAVY = {"torch", "cv2", "numpy", "sqlalchemy", "alembic", "viser", "starlette", "uvicorn", "PIL"}
 

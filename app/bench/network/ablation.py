@@ -9,17 +9,17 @@ from typing import Any
 import torch
 from msgspec.structs import replace
 
-from app.bench.network.sets import LabelledPhotos, Progress, rendered_for_training
-from app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
-from model.data import Example
-from model.evaluate.masks import evaluate_masks
-from model.network.decode import DecodeConfig
-from model.network.weights import load_weights
-from model.predict import Predictor
-from model.recipe import Recipe, checked, read_recipe
-from model.shipped import RECIPE
-from model.train import FINAL, train
-from model.train import Progress as Step
+from fairyring.app.bench.network.sets import LabelledPhotos, Progress, rendered_for_training
+from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
+from fairyring.model.data import Example
+from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.network.decode import DecodeConfig
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import Predictor
+from fairyring.model.recipe import Recipe, checked, read_recipe
+from fairyring.model.shipped import RECIPE
+from fairyring.model.train import FINAL, train
+from fairyring.model.train import Progress as Step
 
 PAPER_GRIDS = (40, 36, 24, 16, 12)
 WINDOWS = (2, 1)

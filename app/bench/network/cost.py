@@ -14,13 +14,13 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from app.bench.network.sets import LabelledPhotos
-from model.contour.reconstruct import reconstruct
-from model.predict import Detection, Predictor
-from storage.images import find_image
-from storage.importing import import_paths
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.project import Project, create_project
+from fairyring.app.bench.network.sets import LabelledPhotos
+from fairyring.model.contour.reconstruct import reconstruct
+from fairyring.model.predict import Detection, Predictor
+from fairyring.storage.images import find_image
+from fairyring.storage.importing import import_paths
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.project import Project, create_project
 
 WARM_UP, ROUNDS = 2, 7
 

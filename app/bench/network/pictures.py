@@ -9,13 +9,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bench.network.sets import LabelledPhotos
-from app.bench.network.tables import CERTAIN
-from app.commands.files import FileError
-from model.documents import pages_of
-from model.evaluate.masks import score_masks
-from model.geometry import Outline, points_of_part
-from model.photo import Pixels
+from fairyring.app.bench.network.sets import LabelledPhotos
+from fairyring.app.bench.network.tables import CERTAIN
+from fairyring.app.commands.files import FileError
+from fairyring.model.documents import pages_of
+from fairyring.model.evaluate.masks import score_masks
+from fairyring.model.geometry import Outline, points_of_part
+from fairyring.model.photo import Pixels
 
 TRUTH, FOUND, UNSURE = (255, 255, 0), (255, 0, 255), (120, 120, 255)
 """BGR: true outlines cyan, predictions magenta, those of a score below CERTAIN in a dull red."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.commands.files import read_json
-from model import photo
-from model.errors import FairyringError
-from model.photo import Pixels
-from model.scene.dataset import DOCUMENT, write_beds
-from model.scene.presets import preset
+from fairyring.app.commands.files import read_json
+from fairyring.model import photo
+from fairyring.model.errors import FairyringError
+from fairyring.model.photo import Pixels
+from fairyring.model.scene.dataset import DOCUMENT, write_beds
+from fairyring.model.scene.presets import preset
 
 Progress = Callable[[int, int, str], None]
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.bench.network.sets import LabelledPhotos, Progress
-from model.contour.coco import contour_document
-from model.evaluate.centres import evaluate_centres
-from model.evaluate.masks import evaluate_masks
-from model.network.decode import DecodeConfig
-from model.predict import Predictor
+from fairyring.app.bench.network.sets import LabelledPhotos, Progress
+from fairyring.model.contour.coco import contour_document
+from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.network.decode import DecodeConfig
+from fairyring.model.predict import Predictor
 
 CERTAIN = 0.5
 """Least score of the predictions whose centres are measured."""

@@ -12,10 +12,10 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from app.bench.network.cost import timed
-from model.network.pr_solov2 import Outputs, PRSOLOv2
-from model.network.weights import load_weights
-from model.predict import Predictor
+from fairyring.app.bench.network.cost import timed
+from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import Predictor
 
 
 def way_rows(weights: Path, photo: NDArray[np.uint8], *, device: torch.device) -> list[dict[str, Any]]:

@@ -9,9 +9,9 @@ from typing import get_args
 import msgspec
 import pytest
 
-from app.gateway import messages
-from model.geometry import Circle, Ellipse, Polygon
-from storage import records
+from fairyring.app.gateway import messages
+from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.storage import records
 
 SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "messages.js").read_text(encoding="utf-8")
 STRUCTS = (

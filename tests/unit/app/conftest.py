@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 import uvicorn
 
-from app.gateway.server import configure, make_app
-from app.settings import Settings
-from app.workspace import Workspace
-from storage.importing import import_paths
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.project import Project, create_project, open_project
+from fairyring.app.gateway.server import configure, make_app
+from fairyring.app.settings import Settings
+from fairyring.app.workspace import Workspace
+from fairyring.storage.importing import import_paths
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.project import Project, create_project, open_project
 from tests.unit.app.tab import until
 
 HOSTILE = "<img src=x onerror=alert(1)>"

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import torch
 
-from model.network.config import NetworkConfig
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.weights import save_weights
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.weights import save_weights
 
 SMALL = NetworkConfig(
     reduction=1,

@@ -15,8 +15,8 @@ import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from app.gateway.messages import Edits, Hello, Incoming, Outcomes, Outgoing
-from storage.records import Cap, Edit
+from fairyring.app.gateway.messages import Edits, Hello, Incoming, Outcomes, Outgoing
+from fairyring.storage.records import Cap, Edit
 
 SUBPROTOCOL = "viser-v1.1.1"
 TOKEN = re.compile(r'id="fairyring-tab" data-token="([^"]+)"')

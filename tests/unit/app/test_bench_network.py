@@ -12,10 +12,10 @@ import pytest
 import torch
 from typer.testing import CliRunner
 
-from app.bench.network import sets
-from app.cli import app
-from model.scene.presets import PRESETS
-from model.scene.settings import Growth, Settings
+from fairyring.app.bench.network import sets
+from fairyring.app.cli import app
+from fairyring.model.scene.presets import PRESETS
+from fairyring.model.scene.settings import Growth, Settings
 from tests.unit.app.sighted import write_weights
 
 SMALL = Settings(width=320, height=192, growth=Growth(caps=(12, 14), diameters=(16, 24, 36, 48, 60)))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.derive import derive_edits, fill_in, refit, whole_of
-from app.gateway.messages import Refit
-from app.nearby import Boxes, box_of, keys_near
-from app.scene import Scene, scene_of
-from model.geometry import Circle, Ellipse, Polygon, diameter_of_shape
-from storage.derived import images_with_underived
-from storage.documents import load_annotations, load_document
-from storage.journal import Derived, commit
-from storage.project import Project
-from storage.records import Annotation, Cap, Edit, Image
+from fairyring.app.derive import derive_edits, fill_in, refit, whole_of
+from fairyring.app.gateway.messages import Refit
+from fairyring.app.nearby import Boxes, box_of, keys_near
+from fairyring.app.scene import Scene, scene_of
+from fairyring.model.geometry import Circle, Ellipse, Polygon, diameter_of_shape
+from fairyring.storage.derived import images_with_underived
+from fairyring.storage.documents import load_annotations, load_document
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Cap, Edit, Image
 from tests.unit.app.conftest import circle
 from tests.unit.app.tab import SQUARE, new_cap
 

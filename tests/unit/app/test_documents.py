@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from app.documents import Documents
-from model.geometry import Circle
-from storage.images import set_status
-from storage.journal import Derived, commit
-from storage.project import Project
+from fairyring.app.documents import Documents
+from fairyring.model.geometry import Circle
+from fairyring.storage.images import set_status
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
 from tests.unit.app.tab import new_cap
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import app
-from app.commands.files import FileError
+from fairyring.app.cli import app
+from fairyring.app.commands.files import FileError
 
 
 def bed(*corners: int, **annotation: Any) -> dict[str, Any]:

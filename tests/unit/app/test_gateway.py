@@ -10,11 +10,11 @@ import httpx
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from app.gateway import server
-from app.gateway.guard import is_loopback, is_same_origin
-from app.gateway.shell import load_shell
-from app.settings import Settings
-from storage.project import Project
+from fairyring.app.gateway import server
+from fairyring.app.gateway.guard import is_loopback, is_same_origin
+from fairyring.app.gateway.shell import load_shell
+from fairyring.app.settings import Settings
+from fairyring.storage.project import Project
 from tests.unit.app.tab import SUBPROTOCOL, Panel, Tab, open_socket
 
 ADA = {"Cookie": "fairyring_name=Ada"}

@@ -13,9 +13,9 @@ from zipfile import ZipFile
 import httpx
 import msgspec
 
-from app.gateway.messages import Notice, Show
-from app.jobs import KEPT, UNEXPECTED, Job, Jobs, Progress, Result
-from model.errors import FairyringError
+from fairyring.app.gateway.messages import Notice, Show
+from fairyring.app.jobs import KEPT, UNEXPECTED, Job, Jobs, Progress, Result
+from fairyring.model.errors import FairyringError
 from tests.unit.app.tab import Tab, new_cap, until
 
 

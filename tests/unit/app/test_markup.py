@@ -7,18 +7,18 @@ from html.parser import HTMLParser
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.derive import Whole
-from app.jobs import Job
-from app.panels import cap, images, jobs, review, status
-from app.panels.cap import Background
-from app.panels.markup import element
-from app.session import Session
-from model.evaluate.centres import Pair
-from model.geometry import Circle
-from storage.comparisons import Comparison, ComparisonRow
-from storage.images import ImagePage, ImageRow
-from storage.journal import Entry
-from storage.records import Annotation, Cap, Document, Image, Prediction, Run
+from fairyring.app.derive import Whole
+from fairyring.app.jobs import Job
+from fairyring.app.panels import cap, images, jobs, review, status
+from fairyring.app.panels.cap import Background
+from fairyring.app.panels.markup import element
+from fairyring.app.session import Session
+from fairyring.model.evaluate.centres import Pair
+from fairyring.model.geometry import Circle
+from fairyring.storage.comparisons import Comparison, ComparisonRow
+from fairyring.storage.images import ImagePage, ImageRow
+from fairyring.storage.journal import Entry
+from fairyring.storage.records import Annotation, Cap, Document, Image, Prediction, Run
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (

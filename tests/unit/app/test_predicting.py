@@ -15,16 +15,16 @@ import pytest
 from click.testing import Result
 from typer.testing import CliRunner
 
-from app.cli import app
-from app.gateway.messages import Edits, Notice, Predicted, Select, Show
-from app.predicting import Network, network_of, predict_images
-from app.weights import weights_of
-from model.errors import FairyringError
-from model.predict import Predictor
-from storage.documents import load_annotations, load_document, load_predictions
-from storage.images import ImageFilter, list_ids
-from storage.predictions import list_runs
-from storage.project import Project
+from fairyring.app.cli import app
+from fairyring.app.gateway.messages import Edits, Notice, Predicted, Select, Show
+from fairyring.app.predicting import Network, network_of, predict_images
+from fairyring.app.weights import weights_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.predict import Predictor
+from fairyring.storage.documents import load_annotations, load_document, load_predictions
+from fairyring.storage.images import ImageFilter, list_ids
+from fairyring.storage.predictions import list_runs
+from fairyring.storage.project import Project
 from tests.unit.app.sighted import write_weights
 from tests.unit.app.tab import Tab, new_cap, until
 
@@ -110,7 +110,7 @@ def test_ctrl_c_says_what_is_kept_and_how_to_go_on(
         predicted(1)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("app.predicting.predict_images", interrupted)
+    monkeypatch.setattr("fairyring.app.predicting.predict_images", interrupted)
     done = fairyring("predict", project.folder, "--weights", weights)
     assert done.exit_code == 130
     assert "predicted and kept: 1" in done.stderr
@@ -280,7 +280,7 @@ def test_a_project_is_served_and_help_is_shown_without_torch() -> None:
 def test_without_weights_the_panel_says_what_to_do(
     serve: Callable[..., int], project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.weights.SHIPPED", project.folder / "none.safetensors")
+    monkeypatch.setattr("fairyring.app.weights.SHIPPED", project.folder / "none.safetensors")
     with Tab(serve(), image=1) as tab:
         until(lambda: "No weights to predict with" in tab.panel.html, "what to do")
         assert str(project.folder / "weights") in tab.panel.html

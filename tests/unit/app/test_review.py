@@ -6,18 +6,18 @@ import asyncio
 
 import pytest
 
-from app.derive import fill_in
-from app.gateway.messages import Show
-from app.jobs import CancelledError
-from app.review import Reviewer, compare_cap, compare_image, compare_work
-from app.scene import Scene
-from model.geometry import Circle
-from storage.comparisons import get_comparison, list_comparisons, stale_images
-from storage.documents import load_annotations, load_predictions
-from storage.images import get_image
-from storage.journal import Derived, commit
-from storage.project import Project
-from storage.records import Edit
+from fairyring.app.derive import fill_in
+from fairyring.app.gateway.messages import Show
+from fairyring.app.jobs import CancelledError
+from fairyring.app.review import Reviewer, compare_cap, compare_image, compare_work
+from fairyring.app.scene import Scene
+from fairyring.model.geometry import Circle
+from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
+from fairyring.storage.documents import load_annotations, load_predictions
+from fairyring.storage.images import get_image
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
+from fairyring.storage.records import Edit
 from tests.unit.app.conftest import circle
 from tests.unit.app.tab import Tab, new_cap, until
 

@@ -7,16 +7,16 @@ import time
 
 import pytest
 
-from app.gateway.messages import (
+from fairyring.app.gateway.messages import (
     Changed,
     Edits,
     Notice,
     Outcomes,
     Show,
 )
-from model.geometry import Circle
-from storage.project import Project
-from storage.records import Accepted, Cap, Conflict, Edit, Refused
+from fairyring.model.geometry import Circle
+from fairyring.storage.project import Project
+from fairyring.storage.records import Accepted, Cap, Conflict, Edit, Refused
 from tests.unit.app.conftest import circle
 from tests.unit.app.tab import Tab, new_cap
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from app.gateway.messages import (
+from fairyring.app.gateway.messages import (
     Fit,
     Refit,
     Show,
 )
-from storage.records import Cap
+from fairyring.storage.records import Cap
 from tests.unit.app.conftest import circle
 from tests.unit.app.tab import Tab
 

@@ -9,7 +9,7 @@ import msgspec
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from app.gateway.messages import (
+from fairyring.app.gateway.messages import (
     Changed,
     Hello,
     Layers,
@@ -22,8 +22,8 @@ from app.gateway.messages import (
     Toggle,
     Welcome,
 )
-from storage.project import Project
-from storage.records import Accepted
+from fairyring.storage.project import Project
+from fairyring.storage.records import Accepted
 from tests.unit.app.tab import Panel, Tab, new_cap, open_socket, until
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.settings import Settings, SettingsError, load_settings
+from fairyring.app.settings import Settings, SettingsError, load_settings
 
 
 def test_each_source_overrides_the_one_before(tmp_path: Path) -> None:

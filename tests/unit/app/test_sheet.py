@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 import pytest
 
-from app.bench import sheet
-from model.errors import FairyringError
+from fairyring.app.bench import sheet
+from fairyring.model.errors import FairyringError
 
 
 def test_photos_come_first_and_whole_then_rows_of_beds(

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import torch
 
-from app.bench.network.sets import rendered
-from app.bench.network.tables import predicted_document
-from model.evaluate.masks import evaluate_masks
-from model.network.weights import load_weights
-from model.predict import Predictor
-from model.shipped import SHIPPED
+from fairyring.app.bench.network.sets import rendered
+from fairyring.app.bench.network.tables import predicted_document
+from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import Predictor
+from fairyring.model.shipped import SHIPPED
 
 LEAST_AP, LEAST_S50 = 0.75, 0.85
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import app
-from model.scene.settings import SceneError
+from fairyring.app.cli import app
+from fairyring.model.scene.settings import SceneError
 
 SMALL = """
 width = 320

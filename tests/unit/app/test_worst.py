@@ -5,9 +5,9 @@ import cv2
 import numpy as np
 import pytest
 
-from app.bench.worst import COLUMNS, PANEL, draw_worst
-from app.commands.files import FileError
-from model.geometry import Circle, polygon_of_shape
+from fairyring.app.bench.worst import COLUMNS, PANEL, draw_worst
+from fairyring.app.commands.files import FileError
+from fairyring.model.geometry import Circle, polygon_of_shape
 
 TRUTH = (0, 255, 255)
 """RGB."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import pytest
 import torch
 
-from model.data import Example
-from model.train import Progress, TrainResult, train
+from fairyring.model.data import Example
+from fairyring.model.train import Progress, TrainResult, train
 from tests.unit.model.discs import RECIPE, drawn_examples
 
 

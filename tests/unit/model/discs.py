@@ -9,10 +9,10 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from model.crops import CropConfig
-from model.data import Example
-from model.geometry import Circle, polygon_of_shape
-from model.recipe import Recipe
+from fairyring.model.crops import CropConfig
+from fairyring.model.data import Example
+from fairyring.model.geometry import Circle, polygon_of_shape
+from fairyring.model.recipe import Recipe
 from tests.unit.model.network.small import TINY
 
 SIDE = 128

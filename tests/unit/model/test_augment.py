@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.augment import (
+from fairyring.model.augment import (
     Augmentation,
     augment_image,
     draw_augmentation,
@@ -18,8 +18,8 @@ from model.augment import (
     move_points,
     move_shape,
 )
-from model.geometry import Circle, Ellipse, points_on_ellipse, polygon_of_shape
-from model.raster import mask_of_outline
+from fairyring.model.geometry import Circle, Ellipse, points_on_ellipse, polygon_of_shape
+from fairyring.model.raster import mask_of_outline
 
 WIDTH, HEIGHT = 160, 120
 

@@ -8,7 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from model.calibration import LEAST_SLOPE, PRIOR, Calibration, calibrated, fit_calibration, uncalibrated
+from fairyring.model.calibration import (
+    LEAST_SLOPE,
+    PRIOR,
+    Calibration,
+    calibrated,
+    fit_calibration,
+    uncalibrated,
+)
 
 scores = st.lists(st.floats(0, 1), min_size=1, max_size=30).map(np.array)
 

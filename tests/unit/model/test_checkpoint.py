@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import torch
 
-from model.checkpoint import CHECKPOINT, CheckpointError, load_checkpoint, save_checkpoint
+from fairyring.model.checkpoint import CHECKPOINT, CheckpointError, load_checkpoint, save_checkpoint
 
 CPU = torch.device("cpu")
 STATE = {"network": {"x": torch.arange(4.0)}, "iteration": 7, "average": None, "best": "{}"}

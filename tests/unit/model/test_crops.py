@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.augment import Augmentation
-from model.crops import LEAST_VISIBLE, Crop, CropConfig, cut_crop
-from model.geometry import Circle, Outline, polygon_of_shape
-from model.raster import mask_of_outline
+from fairyring.model.augment import Augmentation
+from fairyring.model.crops import LEAST_VISIBLE, Crop, CropConfig, cut_crop
+from fairyring.model.geometry import Circle, Outline, polygon_of_shape
+from fairyring.model.raster import mask_of_outline
 
 WIDTH, HEIGHT, SIDE = 160, 112, 64
 CAPS: list[Outline] = [

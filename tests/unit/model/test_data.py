@@ -11,12 +11,12 @@ import torch
 from msgspec.structs import replace
 from torch import Tensor
 
-from model.crops import CropConfig
-from model.data import Batches, DataError, Example, SampleConfig
-from model.geometry import Circle, polygon_of_shape
-from model.network.objective import Batch
-from model.network.targets import EMPTY, IGNORED
-from model.photo import PhotoError
+from fairyring.model.crops import CropConfig
+from fairyring.model.data import Batches, DataError, Example, SampleConfig
+from fairyring.model.geometry import Circle, polygon_of_shape
+from fairyring.model.network.objective import Batch
+from fairyring.model.network.targets import EMPTY, IGNORED
+from fairyring.model.photo import PhotoError
 from tests.unit.model.network.small import TINY
 
 SETTINGS = SampleConfig(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import torch
 
-from model.device import DeviceError, device_of
+from fairyring.model.device import DeviceError, device_of
 
 
 @pytest.mark.parametrize("there", [True, False])

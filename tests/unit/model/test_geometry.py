@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from model.geometry import (
+from fairyring.model.geometry import (
     Circle,
     Ellipse,
     GeometryError,

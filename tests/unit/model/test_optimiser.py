@@ -9,7 +9,7 @@ import torch
 from msgspec.structs import replace
 from torch import nn
 
-from model.optimiser import (
+from fairyring.model.optimiser import (
     average_of,
     freeze_stages,
     freeze_statistics,
@@ -17,7 +17,7 @@ from model.optimiser import (
     rate_at,
     set_rate,
 )
-from model.recipe import Recipe
+from fairyring.model.recipe import Recipe
 from tests.unit.model.network.small import tiny
 
 PAPER = Recipe()

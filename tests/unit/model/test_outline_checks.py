@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.crossing import area_if_plainly_simple, self_contact
-from model.geometry import (
+from fairyring.model.crossing import area_if_plainly_simple, self_contact
+from fairyring.model.geometry import (
     Circle,
     Ellipse,
     GeometryError,
@@ -21,7 +21,7 @@ from model.geometry import (
     area_of_outline,
     polygon_of_shape,
 )
-from model.raster import check_mark, check_outline, mask_of_outline
+from fairyring.model.raster import check_mark, check_outline, mask_of_outline
 
 SQUARE = [10.0, 10.0, 50.0, 10.0, 50.0, 50.0, 10.0, 50.0]
 BOW_TIE = [10, 10, 50, 50, 50, 10, 10, 50]

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.geometry import area_of_outline, bounds_of_outline, points_of_part
-from model.outlines import outline_of_logits
-from model.raster import mask_of_outline
+from fairyring.model.geometry import area_of_outline, bounds_of_outline, points_of_part
+from fairyring.model.outlines import outline_of_logits
+from fairyring.model.raster import mask_of_outline
 
 
 def disc(cx: float, cy: float, r: float, *, height: int = 100, width: int = 100) -> NDArray[np.float32]:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from model.photo import PhotoError, probe, read
+from fairyring.model.photo import PhotoError, probe, read
 
 # Four fields of one colour each (BGR), so that lossy formats keep their middles.
 TOP_LEFT, TOP_RIGHT = (200, 40, 20), (30, 180, 60)

@@ -10,15 +10,15 @@ import torch
 from numpy.typing import NDArray
 from pycocotools import mask as pycocotools_mask
 
-from model import tiles
-from model.calibration import Calibration, calibrated
-from model.data import read_rgb
-from model.geometry import area_of_outline, bounds_of_outline
-from model.network.decode import DecodeConfig, Instances
-from model.network.refine import Drawn
-from model.network.weights import load_weights
-from model.predict import Detection, PredictConfig, Predictor, _without_repeats  # pyright: ignore
-from model.raster import iou_matrix, rle_of_outline
+from fairyring.model import tiles
+from fairyring.model.calibration import Calibration, calibrated
+from fairyring.model.data import read_rgb
+from fairyring.model.geometry import area_of_outline, bounds_of_outline
+from fairyring.model.network.decode import DecodeConfig, Instances
+from fairyring.model.network.refine import Drawn
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import Detection, PredictConfig, Predictor, _without_repeats  # pyright: ignore
+from fairyring.model.raster import iou_matrix, rle_of_outline
 from tests.unit.model.conftest import Learnt
 from tests.unit.model.discs import DISCS, SIDE, photo_of
 from tests.unit.model.network.small import tiny
@@ -151,8 +151,8 @@ def test_a_cap_whose_middle_is_on_the_seam_is_neither_lost_nor_told_twice(
         return [Drawn(0, 0, 20 - torch.hypot(x - next(middles), y - 64))]
 
     found = Instances(torch.tensor([0.9]), torch.zeros(1, 32), torch.ones(1, 32, 32))
-    monkeypatch.setattr("model.predict.decode", lambda *_: found)
-    monkeypatch.setattr("model.predict.draw", drawn)
+    monkeypatch.setattr("fairyring.model.predict.decode", lambda *_: found)
+    monkeypatch.setattr("fairyring.model.predict.draw", drawn)
     (cap,) = Predictor(tiny(), device=CPU).detect(np.zeros((SIDE, 192, 3), np.uint8))
     assert middle(cap) == pytest.approx((96, 64), abs=0.5)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from pycocotools import mask as coco
 
-from model.geometry import (
+from fairyring.model.geometry import (
     Circle,
     Ellipse,
     GeometryError,
@@ -19,7 +19,7 @@ from model.geometry import (
     points_of_part,
     polygon_of_shape,
 )
-from model.raster import (
+from fairyring.model.raster import (
     area_of_rle,
     check_outline,
     check_rle,

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from model.network.config import SIZES
-from model.recipe import Recipe, RecipeError, checked, read_recipe
+from fairyring.model.network.config import SIZES
+from fairyring.model.recipe import Recipe, RecipeError, checked, read_recipe
 
 
 def read(tmp_path: Path, text: str) -> Recipe:

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from model.settle import CONFIDENT, Window, distinct, settle
+from fairyring.model.settle import CONFIDENT, Window, distinct, settle
 
 
 def window(x: int, y: int, values: list[list[float]]) -> Window:
@@ -102,7 +102,7 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
     scores = [score for *_, score in drawn]
     expected = by_loops(given_windows, scores, 8, 7)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("model.settle.LEAST_PART", 0.0)  # specks, too, as these are nothing else
+        patch.setattr("fairyring.model.settle.LEAST_PART", 0.0)  # specks, too, as these are nothing else
         settled = settle(given_windows, scores, width=8, height=7)
     for one, whole in zip(settled, expected, strict=True):
         height, width = one.logits.shape

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.split import split_by_source
+from fairyring.model.split import split_by_source
 
 names = st.lists(st.sampled_from([f"photo {n}" for n in range(30)]), min_size=1)
 

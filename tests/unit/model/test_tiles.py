@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.tiles import OVERLAP, SIDE, tiles_of
+from fairyring.model.tiles import OVERLAP, SIDE, tiles_of
 
 extents = st.integers(1, 9000)
 

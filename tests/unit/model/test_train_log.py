@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import pytest
 
-from model import train_log
+from fairyring.model import train_log
 
 
 def step(iteration: int) -> dict[str, float]:

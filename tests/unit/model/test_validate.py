@@ -8,11 +8,11 @@ import pytest
 import torch
 from pycocotools import mask as pycocotools_mask
 
-from model.calibration import Calibration
-from model.data import Example, read_rgb
-from model.network.weights import load_weights
-from model.predict import Predictor
-from model.validate import document_of_detections, document_of_labels, validate
+from fairyring.model.calibration import Calibration
+from fairyring.model.data import Example, read_rgb
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import Predictor
+from fairyring.model.validate import document_of_detections, document_of_labels, validate
 from tests.unit.model.conftest import Learnt
 from tests.unit.model.discs import DISCS
 

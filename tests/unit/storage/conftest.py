@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 import pytest
 
-from storage.importing import import_paths
-from storage.project import create_project, open_project
+from fairyring.storage.importing import import_paths
+from fairyring.storage.project import create_project, open_project
 
 SQUARE = [[10.0, 10.0, 30.0, 10.0, 30.0, 30.0, 10.0, 30.0]]
 TRIANGLE = [[40.0, 40.0, 60.0, 40.0, 50.0, 60.0]]

@@ -1,11 +1,17 @@
 import pytest
 from msgspec import structs
 
-from storage.comparisons import Comparison, get_comparison, list_comparisons, stale_images, store_comparison
-from storage.documents import load_version
-from storage.journal import Derived, commit
-from storage.predictions import add_predictions, add_run
-from storage.records import Cap, Edit
+from fairyring.storage.comparisons import (
+    Comparison,
+    get_comparison,
+    list_comparisons,
+    stale_images,
+    store_comparison,
+)
+from fairyring.storage.documents import load_version
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import add_predictions, add_run
+from fairyring.storage.records import Cap, Edit
 
 
 def figures(image, **values):

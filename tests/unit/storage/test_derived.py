@@ -1,7 +1,7 @@
 import pytest
 
-from model.geometry import Circle
-from storage.derived import (
+from fairyring.model.geometry import Circle
+from fairyring.storage.derived import (
     AnnotationFit,
     Fit,
     PredictionFit,
@@ -10,10 +10,10 @@ from storage.derived import (
     store_derived,
     underived_of,
 )
-from storage.documents import load_annotation, load_document
-from storage.journal import Derived, commit
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.records import Cap, Edit
+from fairyring.storage.documents import load_annotation, load_document
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.records import Cap, Edit
 
 FIT = Fit(whole=Circle(20, 20, 10), centre=(20.0, 20.0))
 

@@ -3,10 +3,10 @@ import random
 import pytest
 from sqlalchemy import insert, update
 
-from storage import schema
-from storage.comparisons import Comparison, store_comparison
-from storage.errors import StoreError
-from storage.images import (
+from fairyring.storage import schema
+from fairyring.storage.comparisons import Comparison, store_comparison
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import (
     ImageFilter,
     find_image,
     get_image,
@@ -16,7 +16,7 @@ from storage.images import (
     set_status,
     sort_name,
 )
-from storage.predictions import add_run
+from fairyring.storage.predictions import add_run
 
 
 def names(project, which, **page):

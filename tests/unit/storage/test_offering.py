@@ -2,12 +2,12 @@
 
 import pytest
 
-from model.geometry import Circle
-from storage.documents import load_document, load_predictions
-from storage.journal import Derived, commit
-from storage.offering import offered
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.records import Annotation, Cap, Edit, Image, Prediction
+from fairyring.model.geometry import Circle
+from fairyring.storage.documents import load_document, load_predictions
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.offering import offered
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Prediction
 
 BED = Image(id=1, file_name="bed.png", path="images/bed.png", width=100, height=80, sha256="")
 

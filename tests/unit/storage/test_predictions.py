@@ -2,13 +2,19 @@ import math
 
 import pytest
 
-from model.errors import FairyringError
-from model.geometry import Circle
-from storage.derived import underived_of
-from storage.documents import load_document, load_prediction, load_predictions, load_run, load_version
-from storage.errors import StoreError
-from storage.journal import Derived, commit
-from storage.predictions import (
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry import Circle
+from fairyring.storage.derived import underived_of
+from fairyring.storage.documents import (
+    load_document,
+    load_prediction,
+    load_predictions,
+    load_run,
+    load_version,
+)
+from fairyring.storage.errors import StoreError
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import (
     NewPrediction,
     add_predictions,
     add_run,
@@ -17,7 +23,7 @@ from storage.predictions import (
     list_runs,
     seen_by,
 )
-from storage.records import Cap, Edit
+from fairyring.storage.records import Cap, Edit
 
 
 def predict(project, square, *, name="r", image=1, scores=(0.9, 0.5), **keys):

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from storage.journal import Derived, commit
-from storage.project import Project
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
 from tests.unit.app.conftest import circle
 from tests.unit.app.sighted import RECIPE
 from tests.unit.app.tab import new_cap

@@ -7,8 +7,8 @@ from pathlib import Path
 from click.testing import Result
 from typer.testing import CliRunner
 
-from app.cli import app
-from model.errors import FairyringError
+from fairyring.app.cli import app
+from fairyring.model.errors import FairyringError
 
 
 def fairyring(*words: object) -> Result:

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from app.labels import divided, labels_at, labels_of_project
-from model.geometry import Circle
-from model.network.weights import load_weights
-from storage.exporting import export_coco
-from storage.images import set_status
-from storage.project import Project
+from fairyring.app.labels import divided, labels_at, labels_of_project
+from fairyring.model.geometry import Circle
+from fairyring.model.network.weights import load_weights
+from fairyring.storage.exporting import export_coco
+from fairyring.storage.images import set_status
+from fairyring.storage.project import Project
 from tests.unit.app.conftest import circle
 from tests.unit.app.training.conftest import annotate
 from tests.unit.app.training.terminal import sentence, train

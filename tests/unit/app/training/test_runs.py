@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 import torch
 
-from model.network.weights import load_weights
-from storage.journal import Derived, commit
-from storage.predictions import list_runs
-from storage.project import Project
+from fairyring.model.network.weights import load_weights
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import list_runs
+from fairyring.storage.project import Project
 from tests.unit.app.conftest import circle
 from tests.unit.app.sighted import RECIPE, SMALL
 from tests.unit.app.tab import until
@@ -84,7 +84,7 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_weights_and_to_no_others(
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     assert train(labelled.folder, whole, "--config", recipe).exit_code == 0
     with monkeypatch.context() as patched:
-        patched.setattr("app.commands.network.shown_on_stderr", stopping_after(2))
+        patched.setattr("fairyring.app.commands.network.shown_on_stderr", stopping_after(2))
         done = train(labelled.folder, broken, "--config", recipe)
     assert done.exit_code == 130
     assert "--resume" in done.stderr
@@ -101,7 +101,7 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_weights_and_to_no_others(
 
 
 def annotate_away(project: Project, uid: str) -> None:
-    from storage.records import Edit
+    from fairyring.storage.records import Edit
 
     away = Edit(id=f"{uid}-away", annotation=uid, image=2, base=1, cap=None)
     commit(project, [Derived(edit=away)], user="Ada")

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from model.errors import FairyringError
-from model.network.weights import load_weights
-from model.recipe import Recipe, read_recipe
-from storage.project import Project
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.weights import load_weights
+from fairyring.model.recipe import Recipe, read_recipe
+from fairyring.storage.project import Project
 from tests.unit.app.sighted import RECIPE, SMALL, write_weights
 from tests.unit.app.training.terminal import sentence, train
 
@@ -36,7 +36,7 @@ def test_a_new_network_starts_from_a_backbones_state_dict_or_from_imagenet_and_f
 ) -> None:
     import torch
 
-    from model.network.backbone import build_backbone
+    from fairyring.model.network.backbone import build_backbone
 
     recipe.write_text(RECIPE.replace("[network]", '[network]\nbackbone = "r18"') + "\n")
     asked = ("--config", recipe, "--iterations", 1)
@@ -51,12 +51,12 @@ def test_a_new_network_starts_from_a_backbones_state_dict_or_from_imagenet_and_f
     backbone.write_bytes(b"\x80\x02cos\nsystem\n.")
     assert str(backbone) in sentence(train(labelled.folder, tmp_path / "b", *asked, "--weights", backbone))
     recipe.write_text(RECIPE)
-    monkeypatch.setattr("app.training.imagenet_weights", lambda: None)
+    monkeypatch.setattr("fairyring.app.training.imagenet_weights", lambda: None)
     assert "pip install" in sentence(train(labelled.folder, tmp_path / "b", *asked))
 
 
 def test_a_short_run_warms_up_for_a_tenth_of_it(recipe: Path) -> None:
-    from app.training import recipe_of
+    from fairyring.app.training import recipe_of
 
     assert recipe_of(None, iterations=None, seed=None).warm_up == 500
     assert recipe_of(None, iterations=100, seed=4).warm_up == 10
@@ -75,7 +75,7 @@ def test_weights_of_ours_are_trained_further_in_gentle_steps_unless_a_recipe_say
         seen.append(recipe)
         raise FairyringError("seen")
 
-    monkeypatch.setattr("app.training.train", note)
+    monkeypatch.setattr("fairyring.app.training.train", note)
     for number, options in enumerate([("--weights", base), ("--weights", "imagenet"), ("--config", recipe)]):
         assert sentence(train(labelled.folder, tmp_path / str(number), *options)) == "seen"
     gentle, paper, own = seen

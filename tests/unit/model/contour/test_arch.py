@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from model.contour.arch import (
+from fairyring.model.contour.arch import (
     arch_curvature,
     arch_height,
     arch_radius,

@@ -2,7 +2,12 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from model.contour.circle import circle_cost, enclosing_circle, minimum_distance_circle, pratt_circle
+from fairyring.model.contour.circle import (
+    circle_cost,
+    enclosing_circle,
+    minimum_distance_circle,
+    pratt_circle,
+)
 
 
 def rim(*, centre=(300.0, 200.0), radius=40.0, degrees=360.0, points=180) -> np.ndarray:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from model.contour.classify import (
+from fairyring.model.contour.classify import (
     Defect,
     Limits,
     corners_of,
@@ -10,7 +10,7 @@ from model.contour.classify import (
     mean_curvature,
     sub_contours,
 )
-from model.contour.silhouette import Silhouette, contours_of
+from fairyring.model.contour.silhouette import Silhouette, contours_of
 
 
 def disc(radius: float = 40.0, bite: tuple[float, float, float] | None = None) -> Silhouette:

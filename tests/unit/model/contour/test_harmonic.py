@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from model.contour import harmonic
-from model.contour.harmonic import Evidence, Outlines, fit_outlines
-from model.contour.priors import DEFAULT
-from model.geometry import Ellipse, points_on_ellipse
+from fairyring.model.contour import harmonic
+from fairyring.model.contour.harmonic import Evidence, Outlines, fit_outlines
+from fairyring.model.contour.priors import DEFAULT
+from fairyring.model.geometry import Ellipse, points_on_ellipse
 
 ANGLES = np.linspace(0, 2 * np.pi, 48, endpoint=False)
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.contour.reconstruct import Reconstruction, reconstruct, reconstruct_silhouettes
-from model.contour.silhouette import Silhouette
-from model.geometry import Circle, Ellipse, Outline, part_of_points, polygon_of_shape
-from model.scene.clusters import Cluster, ClusterCap, Recipe, make_cluster
+from fairyring.model.contour.reconstruct import Reconstruction, reconstruct, reconstruct_silhouettes
+from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.geometry import Circle, Ellipse, Outline, part_of_points, polygon_of_shape
+from fairyring.model.scene.clusters import Cluster, ClusterCap, Recipe, make_cluster
 
 WIDTH, HEIGHT = 640, 480
 RECIPE = Recipe(width=WIDTH, height=HEIGHT, count=22, noise=1.0)

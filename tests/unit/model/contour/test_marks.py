@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from model.contour.marks import whole_of_mark
-from model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.contour.marks import whole_of_mark
+from fairyring.model.geometry import Circle, Ellipse, Polygon
 
 
 def polygon(points: np.ndarray) -> Polygon:

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from model.contour.order import Meetings, overlap_order
+from fairyring.model.contour.order import Meetings, overlap_order
 
 CAPS = 7
 PAIRS = [(i, j) for i in range(CAPS) for j in range(i + 1, CAPS)]

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.documents import CapRecord, DocumentError
-from model.errors import FairyringError
-from model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
-from model.geometry import Circle, polygon_of_shape
-from model.raster import rle_of_mask
+from fairyring.model.documents import CapRecord, DocumentError
+from fairyring.model.errors import FairyringError
+from fairyring.model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
+from fairyring.model.geometry import Circle, polygon_of_shape
+from fairyring.model.raster import rle_of_mask
 
 WIDTH, HEIGHT = 200, 100
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.documents import CapRecord
+from fairyring.model.documents import CapRecord
 from tests.unit.model.evaluate.squares import cap, scores
 
 

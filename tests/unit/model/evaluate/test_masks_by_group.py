@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from model.evaluate.masks import score_masks
+from fairyring.model.evaluate.masks import score_masks
 from tests.unit.model.evaluate.squares import cap, page, scores
 
 

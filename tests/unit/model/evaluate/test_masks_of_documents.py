@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from model.documents import DocumentError
-from model.errors import FairyringError
-from model.evaluate.masks import evaluate_masks
+from fairyring.model.documents import DocumentError
+from fairyring.model.errors import FairyringError
+from fairyring.model.evaluate.masks import evaluate_masks
 from tests.unit.model.evaluate.squares import HEIGHT, WIDTH, box, cap, scores
 
 

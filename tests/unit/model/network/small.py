@@ -7,8 +7,8 @@ from typing import Any
 import torch
 from msgspec.structs import replace
 
-from model.network.config import NetworkConfig
-from model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.pr_solov2 import PRSOLOv2
 
 TINY = NetworkConfig(
     reduction=1,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import torch
 
-from model.network.boxes import boxes_of, with_margin
+from fairyring.model.network.boxes import boxes_of, with_margin
 
 
 def test_boxes_enclose_their_masks() -> None:

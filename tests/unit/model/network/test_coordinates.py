@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import torch
 
-from model.network.coordinates import with_coordinates
+from fairyring.model.network.coordinates import with_coordinates
 
 
 def test_a_crop_keeps_the_coordinates_of_the_place_it_was_cut_from() -> None:

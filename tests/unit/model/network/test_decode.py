@@ -8,11 +8,11 @@ import pytest
 import torch
 from msgspec.structs import replace
 
-from model.network.boxes import boxes_of
-from model.network.config import NetworkConfig
-from model.network.decode import DecodeConfig, decode
-from model.network.pr_solov2 import Outputs
-from model.network.refine import draw
+from fairyring.model.network.boxes import boxes_of
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.decode import DecodeConfig, decode
+from fairyring.model.network.pr_solov2 import Outputs
+from fairyring.model.network.refine import draw
 
 CONFIG = NetworkConfig(reduction=1)
 SQUARES = ((slice(2, 8), slice(3, 11)), (slice(20, 30), slice(18, 26)))

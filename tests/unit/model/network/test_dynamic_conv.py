@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import torch
 
-from model.network.dynamic_conv import mask_logits
+from fairyring.model.network.dynamic_conv import mask_logits
 
 
 def test_every_kernel_is_laid_on_its_own_image() -> None:

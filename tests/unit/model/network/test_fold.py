@@ -8,9 +8,9 @@ import pytest
 import torch
 from torch import nn
 
-from model.network.backbone import build_backbone
-from model.network.config import Backbone
-from model.network.fold import fold_batch_norms
+from fairyring.model.network.backbone import build_backbone
+from fairyring.model.network.config import Backbone
+from fairyring.model.network.fold import fold_batch_norms
 
 
 def unsettle(module: nn.Module) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import torch
 from torch.nn import functional as F
 
-from model.network.fpn import FeaturePyramid
+from fairyring.model.network.fpn import FeaturePyramid
 
 
 def test_the_pyramid_is_top_down_sums() -> None:

@@ -9,9 +9,9 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from model.errors import FairyringError
-from model.network.backbone import load_backbone
-from model.network.lite0 import EfficientNetLite0, SameConv, imagenet_weights
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.lite0 import EfficientNetLite0, SameConv, imagenet_weights
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import math
 import pytest
 import torch
 
-from model.network.losses import dice_loss, focal_loss, point_loss
+from fairyring.model.network.losses import dice_loss, focal_loss, point_loss
 
 
 @pytest.mark.parametrize(

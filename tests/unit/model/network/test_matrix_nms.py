@@ -8,7 +8,7 @@ import pytest
 import torch
 from torch import Tensor
 
-from model.network.matrix_nms import matrix_nms, points_nms
+from fairyring.model.network.matrix_nms import matrix_nms, points_nms
 
 
 def iou(first: Tensor, second: Tensor) -> float:

@@ -10,15 +10,15 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from model.crops import Crop
-from model.data import batch_of
-from model.network.config import PointRend
-from model.network.losses import focal_loss
-from model.network.objective import POINTS, Batch, losses_of
-from model.network.point_rend import Queries
-from model.network.point_sampling import sample_maps
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.targets import IGNORED
+from fairyring.model.crops import Crop
+from fairyring.model.data import batch_of
+from fairyring.model.network.config import PointRend
+from fairyring.model.network.losses import focal_loss
+from fairyring.model.network.objective import POINTS, Batch, losses_of
+from fairyring.model.network.point_rend import Queries
+from fairyring.model.network.point_sampling import sample_maps
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.targets import IGNORED
 from tests.unit.model.network.small import tiny
 
 SIDE = 64

@@ -7,8 +7,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from model.network.point_rend import Detail, PointHead, Queries
-from model.network.point_sampling import sample_maps
+from fairyring.model.network.point_rend import Detail, PointHead, Queries
+from fairyring.model.network.point_sampling import sample_maps
 from tests.unit.model.network.small import TINY, tiny
 
 

@@ -7,7 +7,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from model.network.point_sampling import sample_maps, training_points
+from fairyring.model.network.point_sampling import sample_maps, training_points
 
 
 def by_grid_sample(maps: Tensor, owners: Tensor, points: Tensor, stride: float) -> Tensor:

@@ -7,9 +7,9 @@ import math
 import pytest
 import torch
 
-from model.network.config import SIZES
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.targets import grid_shape
+from fairyring.model.network.config import SIZES
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.targets import grid_shape
 from tests.unit.model.network.small import tiny
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import torch
 
-from model.network.config import NetworkConfig
-from model.network.reach import FAR, middles_of, reach_of, within_reach
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.reach import FAR, middles_of, reach_of, within_reach
 
 
 def test_each_level_reaches_two_thirds_of_its_largest_cap_in_photo_pixels() -> None:

@@ -8,9 +8,9 @@ import pytest
 import torch
 from torch import Tensor
 
-from model.network.decode import Instances
-from model.network.point_rend import PointHead, PointMaps, Queries
-from model.network.refine import draw
+from fairyring.model.network.decode import Instances
+from fairyring.model.network.point_rend import PointHead, PointMaps, Queries
+from fairyring.model.network.refine import draw
 
 DISCS = torch.tensor([[70.3, 60.8, 25.0], [105.0, 40.5, 14.2], [3.0, 100.0, 20.0]])
 """x, y, radius, photo pixels, in a photo of 160 × 128; the last reaches beyond it."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 import torch
 
-from model.network.backbone import load_backbone
-from model.network.resnet import ResNet
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.resnet import ResNet
 
 TENSORS = {
     "r18": {

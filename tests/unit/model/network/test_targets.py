@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from model.network.config import LIGHT_RANGES, NetworkConfig
-from model.network.targets import EMPTY, IGNORED, assign_cells, grid_shape
+from fairyring.model.network.config import LIGHT_RANGES, NetworkConfig
+from fairyring.model.network.targets import EMPTY, IGNORED, assign_cells, grid_shape
 
 CONFIG = NetworkConfig(reduction=1, grids=(80, 64, 32, 16, 12), scale_ranges=LIGHT_RANGES)
 """Cells of 16, 20, 40, 80 and 106.7 pixels."""

@@ -13,8 +13,8 @@ import torch
 from safetensors import safe_open
 from safetensors.torch import save_file
 
-from model.network.pr_solov2 import PRSOLOv2
-from model.network.weights import FORMAT, WeightsError, digest_of, load_weights, save_weights
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.weights import FORMAT, WeightsError, digest_of, load_weights, save_weights
 from tests.unit.model.network.small import TINY, tiny
 
 CARD = {"recipe": {"iterations": 3}, "AP": 0.5, "licence": "Apache-2.0"}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from model.scene.presets import preset
-from model.scene.settings import Settings, changed
+from fairyring.model.scene.presets import preset
+from fairyring.model.scene.settings import Settings, changed
 
 
 def small(**growth: Any) -> Settings:

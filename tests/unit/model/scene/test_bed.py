@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from model.geometry import area_of_outline, bounds_of_outline
-from model.raster import mask_of_outline
-from model.scene.bed import Bed, kind_of, render_bed
-from model.scene.presets import preset
-from model.scene.settings import changed
+from fairyring.model.geometry import area_of_outline, bounds_of_outline
+from fairyring.model.raster import mask_of_outline
+from fairyring.model.scene.bed import Bed, kind_of, render_bed
+from fairyring.model.scene.presets import preset
+from fairyring.model.scene.settings import changed
 from tests.unit.model.scene.small import small
 
 WIDTH, HEIGHT, AROUND = 320, 200, 120

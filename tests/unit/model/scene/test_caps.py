@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.scene.caps import DIRECTIONS, Cap, _egg, _squeezed, polygon_of_cap, surface_of_cap
+from fairyring.model.scene.caps import DIRECTIONS, Cap, _egg, _squeezed, polygon_of_cap, surface_of_cap
 
 BOX = (0, 0, 120, 120)
 

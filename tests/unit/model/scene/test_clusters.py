@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from model.scene.clusters import Recipe, make_cluster
+from fairyring.model.scene.clusters import Recipe, make_cluster
 
 
 def test_the_same_seed_gives_the_same_cluster_and_another_one_another():

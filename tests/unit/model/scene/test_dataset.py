@@ -9,11 +9,11 @@ import cv2
 import pytest
 from pycocotools.coco import COCO
 
-from model.geometry import points_of_part
-from model.raster import mask_of_outline
-from model.scene.bed import render_bed
-from model.scene.dataset import write_beds
-from model.scene.settings import SceneError
+from fairyring.model.geometry import points_of_part
+from fairyring.model.raster import mask_of_outline
+from fairyring.model.scene.bed import render_bed
+from fairyring.model.scene.dataset import write_beds
+from fairyring.model.scene.settings import SceneError
 from tests.unit.model.scene.small import small
 
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from model.scene.bed import Bed, render_bed
-from model.scene.settings import changed
+from fairyring.model.scene.bed import Bed, render_bed
+from fairyring.model.scene.settings import changed
 from tests.unit.model.scene.small import small
 
 PLAIN = {"forms": [""], "lights": ["top"], "camera": {"tint": 0, "pitch_deg": [0, 0]}, "soil": {"edge": 0}}

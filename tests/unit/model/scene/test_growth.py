@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from model.scene.growth import FLATNESS, grow, pairs_within
-from model.scene.settings import Growth
+from fairyring.model.scene.growth import FLATNESS, grow, pairs_within
+from fairyring.model.scene.settings import Growth
 
 GROUND = (0.0, 0.0, 900.0, 600.0)
 

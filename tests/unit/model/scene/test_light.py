@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from model.scene.light import Light, cast_shade, draw_light, shine
-from model.scene.settings import LightSource
+from fairyring.model.scene.light import Light, cast_shade, draw_light, shine
+from fairyring.model.scene.settings import LightSource
 
 ROWS, COLUMNS = 160, 240
 BLOCK = np.s_[70:90, 100:130]

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from model.scene.presets import PRESETS, preset, with_form
-from model.scene.settings import FORMS, SceneError, Settings, changed
+from fairyring.model.scene.presets import PRESETS, preset, with_form
+from fairyring.model.scene.settings import FORMS, SceneError, Settings, changed
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.scene.view import hang_camera, project, see_ground, turn
+from fairyring.model.scene.view import hang_camera, project, see_ground, turn
 
 pitches = st.floats(0, 45)
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import torch
 
-from model.data import Example
+from fairyring.model.data import Example
 from tests.unit.model.discs import drawn_examples
 
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import torch
 
-from model import train_log
-from model.data import Example
-from model.network.weights import load_weights
-from model.recipe import Recipe
-from model.train import FINAL, train
+from fairyring.model import train_log
+from fairyring.model.data import Example
+from fairyring.model.network.weights import load_weights
+from fairyring.model.recipe import Recipe
+from fairyring.model.train import FINAL, train
 from tests.unit.model.discs import SHORT
 
 CPU = torch.device("cpu")

@@ -9,12 +9,12 @@ import pytest
 import torch
 from msgspec.structs import replace
 
-from model import train_log
-from model.checkpoint import CHECKPOINT
-from model.data import DataError, Example
-from model.network.lite0 import EfficientNetLite0, imagenet_weights
-from model.network.weights import load_weights
-from model.train import BEST, FINAL, RUN, TrainError, train
+from fairyring.model import train_log
+from fairyring.model.checkpoint import CHECKPOINT
+from fairyring.model.data import DataError, Example
+from fairyring.model.network.lite0 import EfficientNetLite0, imagenet_weights
+from fairyring.model.network.weights import load_weights
+from fairyring.model.train import BEST, FINAL, RUN, TrainError, train
 from tests.unit.model.conftest import Learnt
 from tests.unit.model.discs import RECIPE, SHORT
 from tests.unit.model.training.runs import CPU, logged, run

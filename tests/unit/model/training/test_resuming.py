@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from model import train_log
-from model.checkpoint import CheckpointError, load_checkpoint
-from model.data import Example
-from model.network.weights import digest_of
-from model.train import Progress, TrainError, train
+from fairyring.model import train_log
+from fairyring.model.checkpoint import CheckpointError, load_checkpoint
+from fairyring.model.data import Example
+from fairyring.model.network.weights import digest_of
+from fairyring.model.train import Progress, TrainError, train
 from tests.unit.model.discs import SHORT
 from tests.unit.model.training.runs import CPU, environment, logged, run
 
@@ -49,7 +49,7 @@ KILLED = """
 import sys
 from pathlib import Path
 import torch
-from model.train import train
+from fairyring.model.train import train
 from tests.unit.model.discs import SHORT, drawn_examples
 torch.set_num_threads(1)
 folder = Path(sys.argv[1])

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from model.network.weights import load_weights
-from model.train import FINAL
+from fairyring.model.network.weights import load_weights
+from fairyring.model.train import FINAL
 from tests.unit.model.training.runs import environment, logged
 
 TOGETHER = """
@@ -17,9 +17,9 @@ import sys
 from pathlib import Path
 import torch
 from msgspec.structs import replace
-from model.data import Example
-from model.geometry import Circle, polygon_of_shape
-from model.train import train
+from fairyring.model.data import Example
+from fairyring.model.geometry import Circle, polygon_of_shape
+from fairyring.model.train import train
 from tests.unit.model.discs import SHORT, drawn_examples
 torch.set_num_threads(1)
 folder = Path(sys.argv[1])

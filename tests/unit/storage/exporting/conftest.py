@@ -2,10 +2,10 @@
 
 import pytest
 
-from model.geometry import Circle
-from storage.images import set_status
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.records import Cap
+from fairyring.model.geometry import Circle
+from fairyring.storage.images import set_status
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.records import Cap
 from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, store
 
 

@@ -2,9 +2,9 @@
 
 import json
 
-from storage.exporting import export_coco
-from storage.journal import Derived, commit
-from storage.records import Edit
+from fairyring.storage.exporting import export_coco
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.records import Edit
 
 SQUARE = [10.0, 10.0, 30.0, 10.0, 30.0, 30.0, 10.0, 30.0]
 TRIANGLE = [40.0, 40.0, 60.0, 40.0, 50.0, 60.0]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from storage.journal import Derived, commit
-from storage.records import Cap, Edit
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.records import Cap, Edit
 from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
 
 

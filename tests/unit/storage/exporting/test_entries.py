@@ -8,8 +8,8 @@ import pytest
 from pycocotools import mask
 from pycocotools.coco import COCO
 
-from model.geometry import Circle, Ellipse
-from storage.records import Cap
+from fairyring.model.geometry import Circle, Ellipse
+from fairyring.storage.records import Cap
 from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
 
 

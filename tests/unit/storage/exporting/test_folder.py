@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from storage.errors import StoreError
-from storage.exporting import export_coco
-from storage.importing import import_paths
-from storage.project import create_project
-from storage.records import Cap
+from fairyring.storage.errors import StoreError
+from fairyring.storage.exporting import export_coco
+from fairyring.storage.importing import import_paths
+from fairyring.storage.project import create_project
+from fairyring.storage.records import Cap
 from tests.unit.storage.exporting.exported import SQUARE, export, store
 
 

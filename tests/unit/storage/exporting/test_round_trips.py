@@ -6,16 +6,16 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.geometry import Circle, Ellipse, Polygon
-from storage.documents import load_annotations, load_predictions
-from storage.fitting import fit_caps
-from storage.formats.coco import parse_coco
-from storage.formats.coco_writing import annotation_entry
-from storage.importing import import_paths
-from storage.journal import Derived, commit
-from storage.placing import Photo
-from storage.project import create_project
-from storage.records import Annotation, Cap, Edit
+from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.storage.documents import load_annotations, load_predictions
+from fairyring.storage.fitting import fit_caps
+from fairyring.storage.formats.coco import parse_coco
+from fairyring.storage.formats.coco_writing import annotation_entry
+from fairyring.storage.importing import import_paths
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.placing import Photo
+from fairyring.storage.project import create_project
+from fairyring.storage.records import Annotation, Cap, Edit
 from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
 
 

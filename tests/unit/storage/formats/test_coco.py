@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.geometry import Circle, Ellipse, Polygon
-from storage.errors import StoreError
-from storage.formats.coco import parse_coco
-from storage.formats.found import Problem
+from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.coco import parse_coco
+from fairyring.storage.formats.found import Problem
 
 SQUARE = [10, 10, 30, 10, 30, 30, 10, 30]
 

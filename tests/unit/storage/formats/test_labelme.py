@@ -2,9 +2,9 @@ import json
 
 import pytest
 
-from model.geometry import Circle, Polygon
-from storage.errors import StoreError
-from storage.formats.labelme import parse_labelme
+from fairyring.model.geometry import Circle, Polygon
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.labelme import parse_labelme
 
 TRIANGLE = [[10, 10], [30, 10], [20, 30]]
 FLAT = [10, 10, 30, 10, 20, 30]

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from model.geometry import Circle, Ellipse
-from storage.images import ImageFilter, list_images
-from storage.importing import import_paths
+from fairyring.model.geometry import Circle, Ellipse
+from fairyring.storage.images import ImageFilter, list_images
+from fairyring.storage.importing import import_paths
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.importing.imported import annotations_of, reasons
 

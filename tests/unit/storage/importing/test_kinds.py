@@ -5,9 +5,9 @@ import shutil
 
 import pytest
 
-from model.geometry import Circle, Polygon
-from storage.errors import StoreError
-from storage.importing import import_paths
+from fairyring.model.geometry import Circle, Polygon
+from fairyring.storage.errors import StoreError
+from fairyring.storage.importing import import_paths
 from tests.unit.storage.importing.imported import annotations_of
 
 

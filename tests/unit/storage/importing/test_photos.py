@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from storage.errors import StoreError
-from storage.images import find_image
-from storage.importing import import_paths
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import find_image
+from fairyring.storage.importing import import_paths
 from tests.unit.storage.importing.imported import files_of, reasons
 
 

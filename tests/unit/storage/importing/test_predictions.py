@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from model.geometry import Ellipse
-from storage.documents import load_annotations, load_document, load_predictions, load_run
-from storage.importing import import_paths
+from fairyring.model.geometry import Ellipse
+from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_run
+from fairyring.storage.importing import import_paths
 from tests.unit.storage.conftest import TRIANGLE
 
 

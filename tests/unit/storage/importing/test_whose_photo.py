@@ -2,10 +2,10 @@
 
 import pytest
 
-from storage.errors import StoreError
-from storage.images import find_image
-from storage.importing import import_paths
-from storage.records import Cap
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import find_image
+from fairyring.storage.importing import import_paths
+from fairyring.storage.records import Cap
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.importing.imported import annotations_of, reasons
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from storage.records import Cap
+from fairyring.storage.records import Cap
 
 
 @pytest.fixture

@@ -2,8 +2,8 @@
 
 import sqlite3
 
-from storage.journal import Derived, commit
-from storage.records import Edit
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.records import Edit
 
 
 def edit(number="e1", *, annotation="cap", image=1, base=0, cap=None, **derived):

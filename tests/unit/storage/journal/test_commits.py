@@ -3,11 +3,11 @@
 from pycocotools import mask
 from sqlalchemy import text
 
-from model.geometry import Circle, Ellipse, Polygon
-from storage.documents import load_annotation, load_annotations, load_version
-from storage.journal import commit
-from storage.predictions import NewPrediction, add_predictions, add_run
-from storage.records import Accepted, Cap
+from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.storage.documents import load_annotation, load_annotations, load_version
+from fairyring.storage.journal import commit
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.records import Accepted, Cap
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.journal.edits import edit, journal_rows, one
 

@@ -3,9 +3,9 @@
 import msgspec
 import pytest
 
-from storage.documents import load_annotation
-from storage.journal import commit
-from storage.records import Accepted, Cap, Conflict, Refused
+from fairyring.storage.documents import load_annotation
+from fairyring.storage.journal import commit
+from fairyring.storage.records import Accepted, Cap, Conflict, Refused
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.journal.edits import edit, journal_rows, one
 

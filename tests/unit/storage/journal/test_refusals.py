@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from model.geometry import Circle
-from storage.errors import StoreError
-from storage.journal import commit
-from storage.records import Cap, Refused
+from fairyring.model.geometry import Circle
+from fairyring.storage.errors import StoreError
+from fairyring.storage.journal import commit
+from fairyring.storage.records import Cap, Refused
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.journal.edits import edit, journal_rows, one
 

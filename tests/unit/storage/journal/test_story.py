@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sqlalchemy import delete, exc, update
 
-from model.geometry import Circle
-from storage import schema
-from storage.documents import load_annotation
-from storage.journal import commit, history
-from storage.project import open_project
-from storage.records import Accepted, Cap, Conflict, Refused
+from fairyring.model.geometry import Circle
+from fairyring.storage import schema
+from fairyring.storage.documents import load_annotation
+from fairyring.storage.journal import commit, history
+from fairyring.storage.project import open_project
+from fairyring.storage.records import Accepted, Cap, Conflict, Refused
 from tests.unit.storage.conftest import TRIANGLE
 from tests.unit.storage.journal.edits import edit, journal_rows, one
 
