@@ -9,7 +9,7 @@ import pytest
 
 from fairyring.app.bench.serving import Server
 from fairyring.app.bench.tab import Tab
-from tests.browser.kept import kept_cap, live_caps
+from tests.support.kept import kept_cap, live_caps
 
 BACK = "window.fairyring.state.connection === 'online'"
 

@@ -17,7 +17,7 @@ from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.importing import import_paths
 from fairyring.storage.project import create_project, open_project
-from tests.unit.app.sighted import write_weights
+from tests.support.sighted import write_weights
 
 PHOTOS = 12
 

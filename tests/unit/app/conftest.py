@@ -20,7 +20,7 @@ from fairyring.app.workspace import Workspace
 from fairyring.storage.importing import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import Project, create_project, open_project
-from tests.unit.app.tab import until
+from tests.support.tab import until
 
 HOSTILE = "<img src=x onerror=alert(1)>"
 """Appears as user name, run name and file name: must never be read as HTML."""

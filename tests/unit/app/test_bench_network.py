@@ -16,7 +16,7 @@ from fairyring.app.bench.network import sets
 from fairyring.app.cli import app
 from fairyring.model.scene.presets import PRESETS
 from fairyring.model.scene.settings import Growth, Settings
-from tests.unit.app.sighted import write_weights
+from tests.support.sighted import write_weights
 
 SMALL = Settings(width=320, height=192, growth=Growth(caps=(12, 14), diameters=(16, 24, 36, 48, 60)))
 Table = Callable[..., list[dict[str, Any]]]

@@ -15,8 +15,8 @@ from fairyring.storage.documents import load_annotations, load_document
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image
+from tests.support.tab import SQUARE, new_cap
 from tests.unit.app.conftest import circle
-from tests.unit.app.tab import SQUARE, new_cap
 
 IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=160, height=120, sha256="")
 SCENE = Scene(IMAGE, {}, [])

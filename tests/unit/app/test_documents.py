@@ -7,7 +7,7 @@ from fairyring.model.geometry import Circle
 from fairyring.storage.images import set_status
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
-from tests.unit.app.tab import new_cap
+from tests.support.tab import new_cap
 
 
 def test_a_document_is_the_same_until_its_image_changes(project: Project) -> None:

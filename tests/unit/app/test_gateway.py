@@ -15,7 +15,7 @@ from fairyring.app.gateway.guard import is_loopback, is_same_origin
 from fairyring.app.gateway.shell import load_shell
 from fairyring.app.settings import Settings
 from fairyring.storage.project import Project
-from tests.unit.app.tab import SUBPROTOCOL, Panel, Tab, open_socket
+from tests.support.tab import SUBPROTOCOL, Panel, Tab, open_socket
 
 ADA = {"Cookie": "fairyring_name=Ada"}
 

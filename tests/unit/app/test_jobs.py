@@ -16,7 +16,7 @@ import msgspec
 from fairyring.app.gateway.messages import Notice, Show
 from fairyring.app.jobs import KEPT, UNEXPECTED, Job, Jobs, Progress, Result
 from fairyring.model.errors import FairyringError
-from tests.unit.app.tab import Tab, new_cap, until
+from tests.support.tab import Tab, new_cap, until
 
 
 def run(work: Callable[[Progress], Result], *, meanwhile: Callable[[Job], None] = lambda _: None) -> Job:

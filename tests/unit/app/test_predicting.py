@@ -25,8 +25,8 @@ from fairyring.storage.documents import load_annotations, load_document, load_pr
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.predictions import list_runs
 from fairyring.storage.project import Project
-from tests.unit.app.sighted import write_weights
-from tests.unit.app.tab import Tab, new_cap, until
+from tests.support.sighted import write_weights
+from tests.support.tab import Tab, new_cap, until
 
 
 @pytest.fixture(scope="module")

@@ -18,8 +18,8 @@ from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Edit
+from tests.support.tab import Tab, new_cap, until
 from tests.unit.app.conftest import circle
-from tests.unit.app.tab import Tab, new_cap, until
 
 
 def mark_both(project: Project) -> None:

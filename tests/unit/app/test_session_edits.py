@@ -17,8 +17,8 @@ from fairyring.app.gateway.messages import (
 from fairyring.model.geometry import Circle
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted, Cap, Conflict, Edit, Refused
+from tests.support.tab import Tab, new_cap
 from tests.unit.app.conftest import circle
-from tests.unit.app.tab import Tab, new_cap
 
 
 def test_others_on_the_same_image_see_an_edit_and_its_author_does_not_see_it_twice(port: int) -> None:

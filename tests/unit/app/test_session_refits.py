@@ -10,8 +10,8 @@ from fairyring.app.gateway.messages import (
     Show,
 )
 from fairyring.storage.records import Cap
+from tests.support.tab import Tab
 from tests.unit.app.conftest import circle
-from tests.unit.app.tab import Tab
 
 
 def refit_request(seq: int, x: float) -> Refit:

@@ -24,7 +24,7 @@ from fairyring.app.gateway.messages import (
 )
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted
-from tests.unit.app.tab import Panel, Tab, new_cap, open_socket, until
+from tests.support.tab import Panel, Tab, new_cap, open_socket, until
 
 
 def test_a_tab_is_welcomed_and_shown_the_first_image(port: int, project: Project) -> None:

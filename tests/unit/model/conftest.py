@@ -9,7 +9,7 @@ import torch
 
 from fairyring.model.data import Example
 from fairyring.model.train import Progress, TrainResult, train
-from tests.unit.model.discs import RECIPE, drawn_examples
+from tests.support.discs import RECIPE, drawn_examples
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from fairyring.model.geometry import Circle, polygon_of_shape
 from fairyring.model.network.objective import Batch
 from fairyring.model.network.targets import EMPTY, IGNORED
 from fairyring.model.photo import PhotoError
-from tests.unit.model.network.small import TINY
+from tests.support.small_networks import TINY
 
 SETTINGS = SampleConfig(
     crop=CropConfig(side=64, most_gain=0.1, most_noise=5, scale=(0.8, 1.2)),

@@ -18,7 +18,7 @@ from fairyring.model.optimiser import (
     set_rate,
 )
 from fairyring.model.recipe import Recipe
-from tests.unit.model.network.small import tiny
+from tests.support.small_networks import tiny
 
 PAPER = Recipe()
 

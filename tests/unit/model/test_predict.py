@@ -19,9 +19,9 @@ from fairyring.model.network.refine import Drawn
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import Detection, PredictConfig, Predictor, _without_repeats  # pyright: ignore
 from fairyring.model.raster import iou_matrix, rle_of_outline
+from tests.support.discs import DISCS, SIDE, photo_of
+from tests.support.small_networks import tiny
 from tests.unit.model.conftest import Learnt
-from tests.unit.model.discs import DISCS, SIDE, photo_of
-from tests.unit.model.network.small import tiny
 
 CPU = torch.device("cpu")
 SURE = 0.35

@@ -13,8 +13,8 @@ from fairyring.model.data import Example, read_rgb
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import Predictor
 from fairyring.model.validate import document_of_detections, document_of_labels, validate
+from tests.support.discs import DISCS
 from tests.unit.model.conftest import Learnt
-from tests.unit.model.discs import DISCS
 
 CPU = torch.device("cpu")
 

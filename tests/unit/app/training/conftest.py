@@ -8,9 +8,9 @@ import pytest
 
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
+from tests.support.sighted import RECIPE
+from tests.support.tab import new_cap
 from tests.unit.app.conftest import circle
-from tests.unit.app.sighted import RECIPE
-from tests.unit.app.tab import new_cap
 
 
 @pytest.fixture

@@ -14,9 +14,9 @@ from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.images import set_status
 from fairyring.storage.project import Project
+from tests.support.terminal import sentence, train
 from tests.unit.app.conftest import circle
 from tests.unit.app.training.conftest import annotate
-from tests.unit.app.training.terminal import sentence, train
 
 
 def test_approved_images_alone_are_learnt_once_there_are_some(labelled: Project) -> None:

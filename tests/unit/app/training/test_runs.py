@@ -17,11 +17,11 @@ from fairyring.model.network.weights import load_weights
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import list_runs
 from fairyring.storage.project import Project
+from tests.support.sighted import RECIPE, SMALL
+from tests.support.tab import until
+from tests.support.terminal import fairyring, sentence, train
 from tests.unit.app.conftest import circle
-from tests.unit.app.sighted import RECIPE, SMALL
-from tests.unit.app.tab import until
 from tests.unit.app.training.conftest import annotate
-from tests.unit.app.training.terminal import fairyring, sentence, train
 
 
 def test_what_was_trained_on_a_project_predicts_and_is_traced_to_the_revisions_it_saw(

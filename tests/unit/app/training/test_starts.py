@@ -10,8 +10,8 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.network.weights import load_weights
 from fairyring.model.recipe import Recipe, read_recipe
 from fairyring.storage.project import Project
-from tests.unit.app.sighted import RECIPE, SMALL, write_weights
-from tests.unit.app.training.terminal import sentence, train
+from tests.support.sighted import RECIPE, SMALL, write_weights
+from tests.support.terminal import sentence, train
 
 
 def test_training_goes_on_from_weights_and_says_which(

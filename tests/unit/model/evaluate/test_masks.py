@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fairyring.model.documents import CapRecord
-from tests.unit.model.evaluate.squares import cap, scores
+from tests.support.squares import cap, scores
 
 
 def test_the_figures_of_four_caps_are_those_worked_out_by_hand() -> None:

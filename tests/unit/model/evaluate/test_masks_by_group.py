@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fairyring.model.evaluate.masks import score_masks
-from tests.unit.model.evaluate.squares import cap, page, scores
+from tests.support.squares import cap, page, scores
 
 
 def test_caps_under_30_px_count_apart_from_the_success_rate() -> None:

@@ -11,7 +11,7 @@ import pytest
 from fairyring.model.documents import DocumentError
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.masks import evaluate_masks
-from tests.unit.model.evaluate.squares import HEIGHT, WIDTH, box, cap, scores
+from tests.support.squares import HEIGHT, WIDTH, box, cap, scores
 
 
 def document(*annotations: dict[str, Any], **image: Any) -> dict[str, Any]:

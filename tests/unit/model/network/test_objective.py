@@ -19,7 +19,7 @@ from fairyring.model.network.point_rend import Queries
 from fairyring.model.network.point_sampling import sample_maps
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.targets import IGNORED
-from tests.unit.model.network.small import tiny
+from tests.support.small_networks import tiny
 
 SIDE = 64
 DISCS = [(20.0, 24.0, 9.0), (44.5, 40.0, 12.0), (30.0, 50.0, 7.0)]

@@ -9,7 +9,7 @@ from torch.nn import functional as F
 
 from fairyring.model.network.point_rend import Detail, PointHead, Queries
 from fairyring.model.network.point_sampling import sample_maps
-from tests.unit.model.network.small import TINY, tiny
+from tests.support.small_networks import TINY, tiny
 
 
 def sampled(maps: Tensor, queries: Queries, stride: int) -> Tensor:

@@ -10,7 +10,7 @@ import torch
 from fairyring.model.network.config import SIZES
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.targets import grid_shape
-from tests.unit.model.network.small import tiny
+from tests.support.small_networks import tiny
 
 
 @pytest.mark.parametrize("name", SIZES)

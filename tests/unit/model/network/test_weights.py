@@ -15,7 +15,7 @@ from safetensors.torch import save_file
 
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import FORMAT, WeightsError, digest_of, load_weights, save_weights
-from tests.unit.model.network.small import TINY, tiny
+from tests.support.small_networks import TINY, tiny
 
 CARD = {"recipe": {"iterations": 3}, "AP": 0.5, "licence": "Apache-2.0"}
 

@@ -10,7 +10,7 @@ from fairyring.model.raster import mask_of_outline
 from fairyring.model.scene.bed import Bed, kind_of, render_bed
 from fairyring.model.scene.presets import preset
 from fairyring.model.scene.settings import changed
-from tests.unit.model.scene.small import small
+from tests.support.small_beds import small
 
 WIDTH, HEIGHT, AROUND = 320, 200, 120
 

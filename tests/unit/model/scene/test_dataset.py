@@ -14,7 +14,7 @@ from fairyring.model.raster import mask_of_outline
 from fairyring.model.scene.bed import render_bed
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.settings import SceneError
-from tests.unit.model.scene.small import small
+from tests.support.small_beds import small
 
 
 def contents(folder: Path) -> dict[str, bytes]:

@@ -9,7 +9,7 @@ import pytest
 
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.settings import changed
-from tests.unit.model.scene.small import small
+from tests.support.small_beds import small
 
 PLAIN = {"forms": [""], "lights": ["top"], "camera": {"tint": 0, "pitch_deg": [0, 0]}, "soil": {"edge": 0}}
 

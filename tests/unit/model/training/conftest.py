@@ -9,7 +9,7 @@ import pytest
 import torch
 
 from fairyring.model.data import Example
-from tests.unit.model.discs import drawn_examples
+from tests.support.discs import drawn_examples
 
 
 @pytest.fixture(autouse=True)

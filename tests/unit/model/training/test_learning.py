@@ -15,9 +15,9 @@ from fairyring.model.data import DataError, Example
 from fairyring.model.network.lite0 import EfficientNetLite0, imagenet_weights
 from fairyring.model.network.weights import load_weights
 from fairyring.model.train import BEST, FINAL, RUN, TrainError, train
+from tests.support.discs import RECIPE, SHORT
+from tests.support.small_runs import CPU, logged, run
 from tests.unit.model.conftest import Learnt
-from tests.unit.model.discs import RECIPE, SHORT
-from tests.unit.model.training.runs import CPU, logged, run
 
 
 @pytest.mark.timeout(280)

@@ -16,8 +16,8 @@ from fairyring.model.checkpoint import CheckpointError, load_checkpoint
 from fairyring.model.data import Example
 from fairyring.model.network.weights import digest_of
 from fairyring.model.train import Progress, TrainError, train
-from tests.unit.model.discs import SHORT
-from tests.unit.model.training.runs import CPU, environment, logged, run
+from tests.support.discs import SHORT
+from tests.support.small_runs import CPU, environment, logged, run
 
 
 class StopError(Exception):
@@ -50,7 +50,7 @@ import sys
 from pathlib import Path
 import torch
 from fairyring.model.train import train
-from tests.unit.model.discs import SHORT, drawn_examples
+from tests.support.discs import SHORT, drawn_examples
 torch.set_num_threads(1)
 folder = Path(sys.argv[1])
 train(drawn_examples(folder), [], folder / "out", recipe=SHORT, device=torch.device("cpu"), workers=0,

@@ -10,7 +10,7 @@ import pytest
 
 from fairyring.model.network.weights import load_weights
 from fairyring.model.train import FINAL
-from tests.unit.model.training.runs import environment, logged
+from tests.support.small_runs import environment, logged
 
 TOGETHER = """
 import sys
@@ -20,7 +20,7 @@ from msgspec.structs import replace
 from fairyring.model.data import Example
 from fairyring.model.geometry import Circle, polygon_of_shape
 from fairyring.model.train import train
-from tests.unit.model.discs import SHORT, drawn_examples
+from tests.support.discs import SHORT, drawn_examples
 torch.set_num_threads(1)
 folder = Path(sys.argv[1])
 examples = drawn_examples(folder)

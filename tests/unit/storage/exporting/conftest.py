@@ -6,7 +6,7 @@ from fairyring.model.geometry import Circle
 from fairyring.storage.images import set_status
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap
-from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, store
+from tests.support.exported import SQUARE, TRIANGLE, store
 
 
 @pytest.fixture

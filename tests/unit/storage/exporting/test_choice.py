@@ -4,7 +4,7 @@ import pytest
 
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.records import Cap, Edit
-from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
+from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from pycocotools.coco import COCO
 
 from fairyring.model.geometry import Circle, Ellipse
 from fairyring.storage.records import Cap
-from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
+from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
 def test_ids_count_from_1_in_one_stable_order(beds, out, tmp_path):

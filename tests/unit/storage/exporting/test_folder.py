@@ -12,7 +12,7 @@ from fairyring.storage.exporting import export_coco
 from fairyring.storage.importing import import_paths
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap
-from tests.unit.storage.exporting.exported import SQUARE, export, store
+from tests.support.exported import SQUARE, export, store
 
 
 def test_the_folder_holds_one_json_file_and_the_photos(beds, out):

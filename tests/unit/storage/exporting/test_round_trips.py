@@ -16,7 +16,7 @@ from fairyring.storage.journal import Derived, commit
 from fairyring.storage.placing import Photo
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Annotation, Cap, Edit
-from tests.unit.storage.exporting.exported import SQUARE, TRIANGLE, export, store
+from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
 def test_what_is_exported_and_imported_into_a_new_project_is_the_same(beds, out, tmp_path):

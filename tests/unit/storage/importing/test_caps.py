@@ -7,8 +7,8 @@ import pytest
 from fairyring.model.geometry import Circle, Ellipse
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing import import_paths
+from tests.support.imported import annotations_of, reasons
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.importing.imported import annotations_of, reasons
 
 
 def test_marks_become_whole_outlines_at_once(beds, write_coco, square):

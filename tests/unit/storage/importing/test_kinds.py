@@ -8,7 +8,7 @@ import pytest
 from fairyring.model.geometry import Circle, Polygon
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing import import_paths
-from tests.unit.storage.importing.imported import annotations_of
+from tests.support.imported import annotations_of
 
 
 def test_a_folder_of_labelme_files_and_photos(project, tmp_path, write_photo):

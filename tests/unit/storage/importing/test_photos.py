@@ -8,7 +8,7 @@ from PIL import Image
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
 from fairyring.storage.importing import import_paths
-from tests.unit.storage.importing.imported import files_of, reasons
+from tests.support.imported import files_of, reasons
 
 
 def test_photos_are_copied_with_size_hash_and_what_was_said_of_them(project, tmp_path, write_photo):

@@ -9,8 +9,8 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.importing import import_paths
 from fairyring.storage.journal import Derived, commit, history
 from fairyring.storage.records import Cap, Edit
+from tests.support.imported import annotations_of, files_of, rows_of
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.importing.imported import annotations_of, files_of, rows_of
 
 
 def test_strict_takes_nothing_if_anything_is_wrong(project, tmp_path, write_photo):

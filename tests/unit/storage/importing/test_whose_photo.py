@@ -6,8 +6,8 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
 from fairyring.storage.importing import import_paths
 from fairyring.storage.records import Cap
+from tests.support.imported import annotations_of, reasons
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.importing.imported import annotations_of, reasons
 
 
 def test_coco_annotations_find_their_image_by_base_name_and_size(beds, write_coco, square):

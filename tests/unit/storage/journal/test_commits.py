@@ -8,8 +8,8 @@ from fairyring.storage.documents import load_annotation, load_annotations, load_
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Accepted, Cap
+from tests.support.edits import edit, journal_rows, one
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.journal.edits import edit, journal_rows, one
 
 
 def test_an_accepted_edit_is_in_the_file(beds, cap):

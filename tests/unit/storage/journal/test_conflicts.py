@@ -6,8 +6,8 @@ import pytest
 from fairyring.storage.documents import load_annotation
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused
+from tests.support.edits import edit, journal_rows, one
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.journal.edits import edit, journal_rows, one
 
 
 def test_a_lost_update_is_a_conflict_that_shows_theirs_and_who(beds, cap):

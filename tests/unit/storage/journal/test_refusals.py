@@ -8,8 +8,8 @@ from fairyring.model.geometry import Circle
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Cap, Refused
+from tests.support.edits import edit, journal_rows, one
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.journal.edits import edit, journal_rows, one
 
 
 @pytest.mark.parametrize(

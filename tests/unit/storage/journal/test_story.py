@@ -14,8 +14,8 @@ from fairyring.storage.documents import load_annotation
 from fairyring.storage.journal import commit, history
 from fairyring.storage.project import open_project
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused
+from tests.support.edits import edit, journal_rows, one
 from tests.unit.storage.conftest import TRIANGLE
-from tests.unit.storage.journal.edits import edit, journal_rows, one
 
 
 def test_the_journal_tells_the_whole_story(beds, cap):

@@ -13,7 +13,7 @@ from fairyring.model.data import Example
 from fairyring.model.network.weights import load_weights
 from fairyring.model.recipe import Recipe
 from fairyring.model.train import FINAL, train
-from tests.unit.model.discs import SHORT
+from tests.support.discs import SHORT
 
 CPU = torch.device("cpu")
 
@@ -32,5 +32,5 @@ def logged(out: Path, key: str) -> list[tuple[int, float]]:
 
 def environment(**more: str) -> dict[str, str]:
     """Of a training in a process of its own."""
-    root = Path(__file__).parents[4]
+    root = Path(__file__).parents[2]
     return {**os.environ, "PYTHONPATH": str(root), "OMP_NUM_THREADS": "1", **more}

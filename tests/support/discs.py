@@ -13,7 +13,7 @@ from fairyring.model.crops import CropConfig
 from fairyring.model.data import Example
 from fairyring.model.geometry import Circle, polygon_of_shape
 from fairyring.model.recipe import Recipe
-from tests.unit.model.network.small import TINY
+from tests.support.small_networks import TINY
 
 SIDE = 128
 DISCS = (
