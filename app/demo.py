@@ -8,9 +8,9 @@ from pathlib import Path
 
 from fairyring.app.derive import Progress
 from fairyring.app.predicting import network_of, predict_images
+from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset
-from fairyring.model.shipped import SHIPPED
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.importing import import_paths
 from fairyring.storage.project import create_project

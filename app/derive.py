@@ -17,8 +17,8 @@ from fairyring.app.scene import Scene, scene_of
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct
 from fairyring.model.contour.result import Arc as FoundArc
-from fairyring.model.geometry import Circle, GeometryError, Polygon
-from fairyring.model.raster import check_mark, check_outline
+from fairyring.model.geometry.raster import check_mark, check_outline
+from fairyring.model.geometry.shapes import Circle, GeometryError, Polygon
 from fairyring.storage import derived
 from fairyring.storage.documents import load_annotations, load_document, load_predictions
 from fairyring.storage.errors import StoreError

@@ -11,10 +11,10 @@ from sqlalchemy import Connection
 
 from fairyring.app.derive import Progress
 from fairyring.app.originals import original_of
-from fairyring.model.data import Example
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry import Outline, Polygon, polygon_of_shape
-from fairyring.model.split import split_by_source
+from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
+from fairyring.model.train.data import Example
+from fairyring.model.train.split import split_by_source
 from fairyring.storage.documents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, get_image, list_ids

@@ -19,11 +19,11 @@ from fairyring.app.originals import original_of
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry import GeometryError, Outline
+from fairyring.model.geometry.raster import check_outline
+from fairyring.model.geometry.shapes import GeometryError, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict import PredictConfig, Predictor
-from fairyring.model.raster import check_outline
+from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.storage.images import get_image
 from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
 from fairyring.storage.project import Project

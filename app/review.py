@@ -14,10 +14,10 @@ import anyio.to_thread
 from fairyring.app.jobs import Progress, Result
 from fairyring.app.nearby import keys_near
 from fairyring.app.scene import Scene, covered_by
-from fairyring.model.documents import CapRecord
 from fairyring.model.evaluate import centres
-from fairyring.model.geometry import diameter_of_shape
-from fairyring.model.raster import rle_of_outline
+from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.geometry.raster import rle_of_outline
+from fairyring.model.geometry.shapes import diameter_of_shape
 from fairyring.storage.comparisons import Comparison, stale_images, store_comparison
 from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_version
 from fairyring.storage.predictions import latest_run

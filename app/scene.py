@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from fairyring.app.nearby import NOWHERE, Boxes, around
-from fairyring.model.geometry import polygon_of_shape
+from fairyring.model.geometry.shapes import polygon_of_shape
 from fairyring.storage.records import Annotation, Document, Image, Outline, Prediction
 
 

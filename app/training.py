@@ -15,7 +15,6 @@ from msgspec import structs
 
 from fairyring.app.derive import Progress
 from fairyring.app.labels import Labels, divided, labels_at
-from fairyring.model.checkpoint import CheckpointError
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.network.backbone import load_backbone
@@ -23,9 +22,10 @@ from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.lite0 import imagenet_weights
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import load_weights
-from fairyring.model.recipe import Recipe, checked, read_recipe
-from fairyring.model.shipped import RECIPE, SHIPPED
-from fairyring.model.train import RUN, TrainResult, train
+from fairyring.model.predict.shipped import RECIPE, SHIPPED
+from fairyring.model.train.checkpoint import CheckpointError
+from fairyring.model.train.loop import RUN, TrainResult, train
+from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.storage.project import SETTINGS
 
 IMAGENET = "imagenet"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.shipped import SHIPPED
+from fairyring.model.predict.shipped import SHIPPED
 from fairyring.storage.project import Project
 
 

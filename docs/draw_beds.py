@@ -10,7 +10,7 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import points_of_part
+from fairyring.model.geometry.shapes import points_of_part
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.presets import preset
 from fairyring.model.scene.settings import FORMS, LightSource

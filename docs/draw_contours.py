@@ -11,7 +11,7 @@ from fairyring.model.contour.classify import Limits, defects_of
 from fairyring.model.contour.paper import reconstruct_contour
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import Silhouette, contours_of, silhouette_of_outline
-from fairyring.model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, points_of_part, polygon_of_shape
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.presets import preset
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from msgspec import structs
 
-from fairyring.model.raster import check_mark, check_outline
+from fairyring.model.geometry.raster import check_mark, check_outline
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Cap
 

@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct, structs
 from sqlalchemy import Connection, insert, select, update
 
-from fairyring.model.geometry import polygon_of_shape
+from fairyring.model.geometry.shapes import polygon_of_shape
 from fairyring.storage import schema
 from fairyring.storage.bulk import insert_many
 from fairyring.storage.clock import now

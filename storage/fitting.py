@@ -11,8 +11,8 @@ import msgspec
 from msgspec import structs
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
-from fairyring.model.raster import check_mark, check_outline
+from fairyring.model.geometry.raster import check_mark, check_outline
+from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
 from fairyring.storage.checking import check_cap
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, Problem

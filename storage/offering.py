@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import polygon_of_shape
-from fairyring.model.raster import area_of_rle, iou_matrix, rle_of_outline
+from fairyring.model.geometry.raster import area_of_rle, iou_matrix, rle_of_outline
+from fairyring.model.geometry.shapes import polygon_of_shape
 from fairyring.storage.records import Annotation, Image, Outline, Prediction
 
 SAME = 0.5

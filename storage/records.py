@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from msgspec import Struct, field
 
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 
 Outline = list[list[float]]
 Shape = Circle | Ellipse

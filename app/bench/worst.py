@@ -22,7 +22,7 @@ from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silh
 from fairyring.model.contour.result import ArcKind
 from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.evaluate.centres import centre_error
-from fairyring.model.geometry import Circle, Ellipse, Points, points_of_part, polygon_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, points_of_part, polygon_of_shape
 from fairyring.model.photo import read
 
 COUNT, COLUMNS = 10, 5

@@ -16,7 +16,7 @@ from fairyring.app.commands.rows import AsJson, print_rows
 
 if TYPE_CHECKING:
     from fairyring.app.bench.network.sets import LabelledPhotos
-    from fairyring.model.predict import Predictor
+    from fairyring.model.predict.predictor import Predictor
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -94,7 +94,7 @@ def cost(
     from fairyring.app.bench.network.cost import cost_rows
     from fairyring.app.bench.network.sets import rendered
     from fairyring.app.predicting import network_of
-    from fairyring.model.shipped import SHIPPED
+    from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
     with _folder(beds) as folder, shown_on_stderr() as progress:
@@ -114,7 +114,7 @@ def ways(
     from fairyring.app.bench.network.sets import rendered
     from fairyring.app.bench.network.ways import way_rows
     from fairyring.model.device import device_of
-    from fairyring.model.shipped import SHIPPED
+    from fairyring.model.predict.shipped import SHIPPED
 
     with _folder(beds) as folder, shown_on_stderr() as progress:
         _, photo = next(rendered("paper", folder, count=1, progress=progress).images())
@@ -174,8 +174,8 @@ def _predicted(
 def _predictor(weights: Path | None, device: str) -> Predictor:
     from fairyring.model.device import device_of
     from fairyring.model.network.weights import load_weights
-    from fairyring.model.predict import Predictor
-    from fairyring.model.shipped import SHIPPED
+    from fairyring.model.predict.predictor import Predictor
+    from fairyring.model.predict.shipped import SHIPPED
 
     return Predictor(load_weights(weights or SHIPPED).network, device=device_of(device))
 

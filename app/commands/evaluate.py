@@ -75,7 +75,7 @@ def _evaluated(
     evaluate: Callable[[Any, Any], dict[str, Any]], predicted: Path, truth: Path
 ) -> dict[str, Any]:
     """The figures of two files, what is wrong with one of them told with its name."""
-    from fairyring.model.documents import DocumentError
+    from fairyring.model.evaluate.pages import DocumentError
 
     documents = read_json(predicted), read_json(truth)
     blamed = {"predicted": (predicted,), "truth": (truth,), None: (predicted, truth)}

@@ -104,7 +104,7 @@ def train(
 
 
 def _after_interruption(out: Path) -> str:
-    from fairyring.model.checkpoint import CHECKPOINT
+    from fairyring.model.train.checkpoint import CHECKPOINT
 
     if (out / CHECKPOINT).exists():
         return f"Stopped; the same command with --resume goes on with {out}."

@@ -17,7 +17,7 @@ from fairyring.app.scene import Scene
 from fairyring.app.session import Session
 from fairyring.app.workspace import Workspace
 from fairyring.model.evaluate.centres import Pair
-from fairyring.model.geometry import Circle, Polygon
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.documents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape

@@ -15,7 +15,7 @@ from fairyring.app.panels.markup import Markup, element
 from fairyring.app.session import Session
 from fairyring.app.weights import require_weights, weights_of
 from fairyring.app.workspace import Workspace
-from fairyring.model.shipped import SHIPPED
+from fairyring.model.predict.shipped import SHIPPED
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
 

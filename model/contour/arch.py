@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import Points
+from fairyring.model.geometry.shapes import Points
 
 COINCIDENT = 1e-9
 """Ends nearer to each other than this, in pixels, are one point."""

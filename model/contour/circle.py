@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import Circle, Points
+from fairyring.model.geometry.shapes import Circle, Points
 
 
 def enclosing_circle(points: Points) -> Circle:

@@ -10,7 +10,7 @@ from typing import Literal
 import cv2
 import numpy as np
 
-from fairyring.model.geometry import Points
+from fairyring.model.geometry.shapes import Points
 
 
 @dataclass(frozen=True, slots=True)

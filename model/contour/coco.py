@@ -12,9 +12,9 @@ from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry import Circle, GeometryError
-from fairyring.model.raster import check_outline
-from fairyring.model.rle import checked_runs, cut_of_runs
+from fairyring.model.geometry.raster import check_outline
+from fairyring.model.geometry.rle import checked_runs, cut_of_runs
+from fairyring.model.geometry.shapes import Circle, GeometryError
 
 OURS = ("center", "circle", "ellipse", "center_sd", "shape", "refusal")
 

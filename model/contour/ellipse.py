@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from msgspec.structs import replace
 
-from fairyring.model.geometry import Circle, Ellipse, Points, canonical_ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, canonical_ellipse
 
 
 def least_squares_ellipse(points: Points) -> Ellipse | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fairyring.model.contour.ellipse import distinct_points, least_squares_ellipse
-from fairyring.model.geometry import Circle, Ellipse, Points, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, Polygon
 
 
 def whole_of_mark(mark: Circle | Ellipse | Polygon) -> Circle | Ellipse | None:

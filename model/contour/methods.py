@@ -18,7 +18,7 @@ from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.result import Reconstruction, ShapeKind
 from fairyring.model.contour.silhouette import RIM_INSET, Silhouette, contours_of
 from fairyring.model.contour.together import Together, fit_together
-from fairyring.model.geometry import Circle, Ellipse, Points, canonical_ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, canonical_ellipse
 
 ELLIPSE_FROM_DEG = 200.0
 """With less of the rim in sight than this, a circle is the better mark (section 5.2's C* of 0.6)."""

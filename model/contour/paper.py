@@ -13,7 +13,7 @@ from fairyring.model.contour.arch import arch_curvature, arch_height, arch_radiu
 from fairyring.model.contour.circle import enclosing_circle, minimum_distance_circle
 from fairyring.model.contour.classify import Limits, corners_of, defects_of, longest, sub_contours
 from fairyring.model.contour.ellipse import axis_ratio, least_squares_ellipse, mean_radius
-from fairyring.model.geometry import Circle, Ellipse, Points
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

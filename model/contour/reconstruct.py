@@ -11,7 +11,7 @@ from fairyring.model.contour.methods import DEFAULT_METHOD, METHODS, Scene
 from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
-from fairyring.model.geometry import Outline
+from fairyring.model.geometry.shapes import Outline
 
 __all__ = ["DEFAULT_METHOD", "METHODS", "Reconstruction", "reconstruct", "reconstruct_silhouettes"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from fairyring.model.geometry import Circle, Ellipse, Points
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points
 
 ShapeKind = Literal["regular", "irregular"]
 ArcKind = Literal["visible", "hidden", "border", "concave"]

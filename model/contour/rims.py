@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.silhouette import Silhouette, contours_of
-from fairyring.model.geometry import Points
+from fairyring.model.geometry.shapes import Points
 
 BINS = 48
 LEAST_PART = 0.1

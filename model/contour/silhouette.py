@@ -14,8 +14,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import Outline, Points, centres_of_pixels, part_of_points, points_of_part
-from fairyring.model.raster import mask_of_outline
+from fairyring.model.geometry.raster import mask_of_outline
+from fairyring.model.geometry.shapes import Outline, Points, centres_of_pixels, part_of_points, points_of_part
 
 RIM_INSET = sqrt(2) / np.pi
 """How far the outermost pixel centres lie inside the edge that cut them: the mean of all directions, pixels.

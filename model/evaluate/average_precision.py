@@ -10,9 +10,9 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from fairyring.model.documents import CapRecord, Page
 from fairyring.model.evaluate.matching import mask_of
-from fairyring.model.raster import area_of_rle
+from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.geometry.raster import area_of_rle
 
 MAX_DETECTIONS = (1, 10, 300)
 """Best predictions of an image that count; AP and AR are of the last. A bed holds more than COCO's 100."""

@@ -14,10 +14,10 @@ from typing import Any, Literal
 import numpy as np
 from msgspec import Struct, to_builtins
 
-from fairyring.model.documents import CapRecord, pages_of
 from fairyring.model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_overlap, unmatched_in_ignored
-from fairyring.model.geometry import Centre
-from fairyring.model.raster import iou_matrix
+from fairyring.model.evaluate.pages import CapRecord, pages_of
+from fairyring.model.geometry.raster import iou_matrix
+from fairyring.model.geometry.shapes import Centre
 
 
 class CentreError(Struct, frozen=True, kw_only=True):

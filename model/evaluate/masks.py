@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from msgspec import Struct, to_builtins
 
-from fairyring.model.documents import Page, pages_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.average_precision import average_precision
 from fairyring.model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, joined, outcomes_of_page
+from fairyring.model.evaluate.pages import Page, pages_of
 
 SMALL_PX = 30.0
 """Diameter below which a cap counts in S50_small alone."""

@@ -7,9 +7,9 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.documents import CapRecord
 from fairyring.model.errors import FairyringError
-from fairyring.model.raster import Rle, shares_inside
+from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.geometry.raster import Rle, shares_inside
 
 LEAST_IOU = 0.5
 """From here on a prediction is the truth's partner."""

@@ -13,10 +13,10 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.documents import Page
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_score, unmatched_in_ignored
-from fairyring.model.raster import area_of_rle, covered_matrix, iou_matrix
+from fairyring.model.evaluate.pages import Page
+from fairyring.model.geometry.raster import area_of_rle, covered_matrix, iou_matrix
 
 LEAST_SCORE = 0.5
 """From here on a prediction is one that the model stands by."""

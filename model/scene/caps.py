@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import part_of_points
+from fairyring.model.geometry.shapes import part_of_points
 from fairyring.model.scene.growth import Floats, Stand, pairs_within
 from fairyring.model.scene.pixels import Image, clipped
 from fairyring.model.scene.settings import Growth

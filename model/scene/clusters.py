@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.silhouette import RIM_INSET
-from fairyring.model.geometry import (
+from fairyring.model.geometry.raster import mask_of_outline
+from fairyring.model.geometry.shapes import (
     Ellipse,
     Points,
     canonical_ellipse,
@@ -23,7 +24,6 @@ from fairyring.model.geometry import (
     part_of_points,
     signed_area,
 )
-from fairyring.model.raster import mask_of_outline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -19,7 +19,7 @@ import cv2
 import msgspec
 import msgspec.structs
 
-from fairyring.model.geometry import area_of_outline, bounds_of_outline
+from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.settings import SceneError, Settings
 from fairyring.model.scene.truth import BedCap

@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry import bounds_of_outline
-from fairyring.model.raster import mask_of_outline
+from fairyring.model.geometry.raster import mask_of_outline
+from fairyring.model.geometry.shapes import bounds_of_outline
 from fairyring.model.scene.caps import Box, Cap, Surface, polygon_of_cap, surface_of_cap
 from fairyring.model.scene.stalks import Stalk, bounds_of_stalk, cover_of_stalk, surface_of_stalk
 

@@ -23,8 +23,8 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from fairyring.model.geometry import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
-from fairyring.model.raster import check_rle, outline_of_rle
+from fairyring.model.geometry.raster import check_rle, outline_of_rle
+from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
 from fairyring.storage.checking import MAX_NAME, MAX_ORDER
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError

@@ -12,7 +12,7 @@ from typing import Any, BinaryIO
 import msgspec
 import numpy as np
 
-from fairyring.model.geometry import (
+from fairyring.model.geometry.shapes import (
     Circle,
     Ellipse,
     Polygon,

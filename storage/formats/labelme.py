@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from fairyring.model.geometry import Circle, Polygon
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.checking import MAX_NAME
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError

@@ -10,7 +10,7 @@ import pytest
 
 from fairyring.app.bench.serving import Server
 from fairyring.app.bench.tab import Tab
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.journal import Derived, commit

@@ -9,10 +9,10 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from fairyring.model.crops import CropConfig
-from fairyring.model.data import Example
-from fairyring.model.geometry import Circle, polygon_of_shape
-from fairyring.model.recipe import Recipe
+from fairyring.model.geometry.shapes import Circle, polygon_of_shape
+from fairyring.model.train.crops import CropConfig
+from fairyring.model.train.data import Example
+from fairyring.model.train.recipe import Recipe
 from tests.support.small_networks import TINY
 
 SIDE = 128

@@ -8,11 +8,11 @@ from typing import Any
 
 import torch
 
-from fairyring.model import train_log
-from fairyring.model.data import Example
 from fairyring.model.network.weights import load_weights
-from fairyring.model.recipe import Recipe
-from fairyring.model.train import FINAL, train
+from fairyring.model.train.data import Example
+from fairyring.model.train.loop import FINAL, train
+from fairyring.model.train.loop import log as train_log
+from fairyring.model.train.recipe import Recipe
 from tests.support.discs import SHORT
 
 CPU = torch.device("cpu")

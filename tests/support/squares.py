@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from fairyring.model.documents import CapRecord, Page
 from fairyring.model.evaluate.masks import MaskScores, score_masks
-from fairyring.model.raster import rle_of_mask
+from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.geometry.raster import rle_of_mask
 
 WIDTH, HEIGHT = 400, 200
 

@@ -13,8 +13,8 @@ ALLOWED = {
     "app": ("fairyring.app", "fairyring.storage", "fairyring.model"),
     "storage": (
         "fairyring.storage",
-        "fairyring.model.geometry",
-        "fairyring.model.raster",
+        "fairyring.model.geometry.shapes.shapes",
+        "fairyring.model.geometry.shapes.raster",
         "fairyring.model.photo",
         "fairyring.model.errors",
     ),

@@ -11,15 +11,15 @@ from msgspec.structs import replace
 
 from fairyring.app.bench.network.sets import LabelledPhotos, Progress, rendered_for_training
 from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
-from fairyring.model.data import Example
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict import Predictor
-from fairyring.model.recipe import Recipe, checked, read_recipe
-from fairyring.model.shipped import RECIPE
-from fairyring.model.train import FINAL, train
-from fairyring.model.train import Progress as Step
+from fairyring.model.predict.predictor import Predictor
+from fairyring.model.predict.shipped import RECIPE
+from fairyring.model.train.data import Example
+from fairyring.model.train.loop import FINAL, train
+from fairyring.model.train.loop import Progress as Step
+from fairyring.model.train.recipe import Recipe, checked, read_recipe
 
 PAPER_GRIDS = (40, 36, 24, 16, 12)
 WINDOWS = (2, 1)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.contour.reconstruct import reconstruct
-from fairyring.model.predict import Detection, Predictor
+from fairyring.model.predict.predictor import Detection, Predictor
 from fairyring.storage.images import find_image
 from fairyring.storage.importing import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run

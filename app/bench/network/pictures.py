@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.app.bench.network.tables import CERTAIN
 from fairyring.app.commands.files import FileError
-from fairyring.model.documents import pages_of
 from fairyring.model.evaluate.masks import score_masks
-from fairyring.model.geometry import Outline, points_of_part
+from fairyring.model.evaluate.pages import pages_of
+from fairyring.model.geometry.shapes import Outline, points_of_part
 from fairyring.model.photo import Pixels
 
 TRUTH, FOUND, UNSURE = (255, 255, 0), (255, 0, 255), (120, 120, 255)

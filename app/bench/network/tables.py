@@ -9,7 +9,7 @@ from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
-from fairyring.model.predict import Predictor
+from fairyring.model.predict.predictor import Predictor
 
 CERTAIN = 0.5
 """Least score of the predictions whose centres are measured."""

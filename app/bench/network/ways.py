@@ -15,7 +15,7 @@ from torch import Tensor, nn
 from fairyring.app.bench.network.cost import timed
 from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict import Predictor
+from fairyring.model.predict.predictor import Predictor
 
 
 def way_rows(weights: Path, photo: NDArray[np.uint8], *, device: torch.device) -> list[dict[str, Any]]:

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from fairyring.app.gateway import messages
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage import records
 
 SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "messages.js").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from fairyring.app.bench.contour import measured_by_coverage, run
 from fairyring.app.commands import contour, evaluate
 from fairyring.app.commands.files import FileError
-from fairyring.model.geometry import Circle, polygon_of_shape
+from fairyring.model.geometry.shapes import Circle, polygon_of_shape
 
 commands = typer.Typer()
 commands.command("contour")(contour.contour)

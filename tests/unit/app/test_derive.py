@@ -9,7 +9,7 @@ from fairyring.app.derive import derive_edits, fill_in, refit, whole_of
 from fairyring.app.gateway.messages import Refit
 from fairyring.app.nearby import Boxes, box_of, keys_near
 from fairyring.app.scene import Scene, scene_of
-from fairyring.model.geometry import Circle, Ellipse, Polygon, diameter_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, diameter_of_shape
 from fairyring.storage.derived import images_with_underived
 from fairyring.storage.documents import load_annotations, load_document
 from fairyring.storage.journal import Derived, commit

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fairyring.app.documents import Documents
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.images import set_status
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project

@@ -14,7 +14,7 @@ from fairyring.app.panels.cap import Background
 from fairyring.app.panels.markup import element
 from fairyring.app.session import Session
 from fairyring.model.evaluate.centres import Pair
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.comparisons import Comparison, ComparisonRow
 from fairyring.storage.images import ImagePage, ImageRow
 from fairyring.storage.journal import Entry

@@ -20,7 +20,7 @@ from fairyring.app.gateway.messages import Edits, Notice, Predicted, Select, Sho
 from fairyring.app.predicting import Network, network_of, predict_images
 from fairyring.app.weights import weights_of
 from fairyring.model.errors import FairyringError
-from fairyring.model.predict import Predictor
+from fairyring.model.predict.predictor import Predictor
 from fairyring.storage.documents import load_annotations, load_document, load_predictions
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.predictions import list_runs

@@ -11,7 +11,7 @@ from fairyring.app.gateway.messages import Show
 from fairyring.app.jobs import CancelledError
 from fairyring.app.review import Reviewer, compare_cap, compare_image, compare_work
 from fairyring.app.scene import Scene
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
 from fairyring.storage.documents import load_annotations, load_predictions
 from fairyring.storage.images import get_image

@@ -14,7 +14,7 @@ from fairyring.app.gateway.messages import (
     Outcomes,
     Show,
 )
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted, Cap, Conflict, Edit, Refused
 from tests.support.tab import Tab, new_cap

@@ -10,8 +10,8 @@ from fairyring.app.bench.network.sets import rendered
 from fairyring.app.bench.network.tables import predicted_document
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict import Predictor
-from fairyring.model.shipped import SHIPPED
+from fairyring.model.predict.predictor import Predictor
+from fairyring.model.predict.shipped import SHIPPED
 
 LEAST_AP, LEAST_S50 = 0.75, 0.85
 

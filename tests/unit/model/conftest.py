@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import pytest
 import torch
 
-from fairyring.model.data import Example
-from fairyring.model.train import Progress, TrainResult, train
+from fairyring.model.train.data import Example
+from fairyring.model.train.loop import Progress, TrainResult, train
 from tests.support.discs import RECIPE, drawn_examples
 
 

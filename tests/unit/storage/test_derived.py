@@ -1,6 +1,6 @@
 import pytest
 
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.derived import (
     AnnotationFit,
     Fit,

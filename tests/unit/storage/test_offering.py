@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.documents import load_document, load_predictions
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.offering import offered

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.derived import underived_of
 from fairyring.storage.documents import (
     load_document,

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from fairyring.app.labels import divided, labels_at, labels_of_project
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.images import set_status

@@ -8,7 +8,7 @@ import pytest
 
 from fairyring.model.errors import FairyringError
 from fairyring.model.network.weights import load_weights
-from fairyring.model.recipe import Recipe, read_recipe
+from fairyring.model.train.recipe import Recipe, read_recipe
 from fairyring.storage.project import Project
 from tests.support.sighted import RECIPE, SMALL, write_weights
 from tests.support.terminal import sentence, train

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from fairyring.model.contour.coco import ContourError, contour_document
-from fairyring.model.geometry import Circle, polygon_of_shape
-from fairyring.model.raster import mask_of_outline, rle_of_mask
+from fairyring.model.geometry.raster import mask_of_outline, rle_of_mask
+from fairyring.model.geometry.shapes import Circle, polygon_of_shape
 
 DISC = [polygon_of_shape(Circle(cx=80.0, cy=60.0, r=25))]
 

@@ -4,7 +4,7 @@ import pytest
 from fairyring.model.contour import harmonic
 from fairyring.model.contour.harmonic import Evidence, Outlines, fit_outlines
 from fairyring.model.contour.priors import DEFAULT
-from fairyring.model.geometry import Ellipse, points_on_ellipse
+from fairyring.model.geometry.shapes import Ellipse, points_on_ellipse
 
 ANGLES = np.linspace(0, 2 * np.pi, 48, endpoint=False)
 

@@ -6,7 +6,7 @@ import pytest
 
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import Silhouette
-from fairyring.model.geometry import Circle, Ellipse, Outline, part_of_points, polygon_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, Outline, part_of_points, polygon_of_shape
 from fairyring.model.scene.clusters import Cluster, ClusterCap, Recipe, make_cluster
 
 WIDTH, HEIGHT = 640, 480

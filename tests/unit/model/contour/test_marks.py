@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fairyring.model.contour.marks import whole_of_mark
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 
 
 def polygon(points: np.ndarray) -> Polygon:

@@ -6,7 +6,7 @@ import pytest
 from fairyring.model.contour.coco import ContourError
 from fairyring.model.contour.estimate import estimate_priors
 from fairyring.model.contour.priors import DEFAULT, PriorsError, read_priors, write_priors
-from fairyring.model.raster import rle_of_mask
+from fairyring.model.geometry.raster import rle_of_mask
 from fairyring.model.scene.clusters import Recipe, make_cluster
 
 RECIPE = Recipe(width=640, height=480, count=24, stretch=0.06, wobble=(0.02, 0.012, 0.008), noise=0.4)

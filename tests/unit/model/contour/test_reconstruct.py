@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from fairyring.model.contour.circle import enclosing_circle
 from fairyring.model.contour.reconstruct import METHODS, Reconstruction, reconstruct, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import Silhouette, contours_of
-from fairyring.model.geometry import Circle, Ellipse, polygon_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, polygon_of_shape
 
 SIZE = {"width": 400, "height": 300}
 

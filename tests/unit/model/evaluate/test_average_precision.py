@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from pycocotools.coco import COCO
 from pycocotools.cocoeval import COCOeval
 
-from fairyring.model.documents import CapRecord, Page
 from fairyring.model.evaluate.average_precision import average_precision, coco_of_pages
 from fairyring.model.evaluate.masks import score_masks
-from fairyring.model.raster import rle_of_mask
+from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.geometry.raster import rle_of_mask
 
 SIDE = 160
 

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.documents import CapRecord, DocumentError
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
-from fairyring.model.geometry import Circle, polygon_of_shape
-from fairyring.model.raster import rle_of_mask
+from fairyring.model.evaluate.pages import CapRecord, DocumentError
+from fairyring.model.geometry.raster import rle_of_mask
+from fairyring.model.geometry.shapes import Circle, polygon_of_shape
 
 WIDTH, HEIGHT = 200, 100
 

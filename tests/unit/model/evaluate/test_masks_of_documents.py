@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from fairyring.model.documents import DocumentError
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.evaluate.pages import DocumentError
 from tests.support.squares import HEIGHT, WIDTH, box, cap, scores
 
 

@@ -10,8 +10,6 @@ import torch
 from torch import Tensor
 from torch.nn import functional as F
 
-from fairyring.model.crops import Crop
-from fairyring.model.data import batch_of
 from fairyring.model.network.config import PointRend
 from fairyring.model.network.losses import focal_loss
 from fairyring.model.network.objective import POINTS, Batch, losses_of
@@ -19,6 +17,8 @@ from fairyring.model.network.point_rend import Queries
 from fairyring.model.network.point_sampling import sample_maps
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.targets import IGNORED
+from fairyring.model.train.crops import Crop
+from fairyring.model.train.data import batch_of
 from tests.support.small_networks import tiny
 
 SIDE = 64

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fairyring.model.geometry import area_of_outline, bounds_of_outline
-from fairyring.model.raster import mask_of_outline
+from fairyring.model.geometry.raster import mask_of_outline
+from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.scene.bed import Bed, kind_of, render_bed
 from fairyring.model.scene.presets import preset
 from fairyring.model.scene.settings import changed

@@ -9,8 +9,8 @@ import cv2
 import pytest
 from pycocotools.coco import COCO
 
-from fairyring.model.geometry import points_of_part
-from fairyring.model.raster import mask_of_outline
+from fairyring.model.geometry.raster import mask_of_outline
+from fairyring.model.geometry.shapes import points_of_part
 from fairyring.model.scene.bed import render_bed
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.settings import SceneError

@@ -8,7 +8,7 @@ import pytest
 from pycocotools import mask
 from pycocotools.coco import COCO
 
-from fairyring.model.geometry import Circle, Ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.records import Cap
 from tests.support.exported import SQUARE, TRIANGLE, export, store
 

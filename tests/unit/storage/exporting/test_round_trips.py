@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage.documents import load_annotations, load_predictions
 from fairyring.storage.fitting import fit_caps
 from fairyring.storage.formats.coco import parse_coco

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import Problem

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from fairyring.model.geometry import Circle, Polygon
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.labelme import parse_labelme
 

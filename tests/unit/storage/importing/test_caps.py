@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from fairyring.model.geometry import Circle, Ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing import import_paths
 from tests.support.imported import annotations_of, reasons

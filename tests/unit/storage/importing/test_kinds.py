@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from fairyring.model.geometry import Circle, Polygon
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing import import_paths
 from tests.support.imported import annotations_of

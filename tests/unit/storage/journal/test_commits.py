@@ -3,7 +3,7 @@
 from pycocotools import mask
 from sqlalchemy import text
 
-from fairyring.model.geometry import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage.documents import load_annotation, load_annotations, load_version
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run

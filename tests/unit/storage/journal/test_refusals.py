@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Cap, Refused

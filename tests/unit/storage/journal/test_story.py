@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sqlalchemy import delete, exc, update
 
-from fairyring.model.geometry import Circle
+from fairyring.model.geometry.shapes import Circle
 from fairyring.storage import schema
 from fairyring.storage.documents import load_annotation
 from fairyring.storage.journal import commit, history

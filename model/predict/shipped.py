@@ -1,0 +1,9 @@
+"""The weights that come with Fairyring."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+SHIPPED = Path(__file__).parents[1] / "weights" / "lite0.safetensors"
+RECIPE = SHIPPED.with_suffix(".toml")
+"""How they were trained."""

@@ -1,9 +1,0 @@
-"""The weights that come with Fairyring."""
-
-from __future__ import annotations
-
-from pathlib import Path
-
-SHIPPED = Path(__file__).parent / "weights" / "lite0.safetensors"
-RECIPE = SHIPPED.with_suffix(".toml")
-"""How they were trained."""

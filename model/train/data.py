@@ -1,0 +1,131 @@
+"""What the network learns from: photos with the visible outlines of their caps, read crop by crop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import torch
+from msgspec import Struct
+from torch.utils.data import Dataset
+
+from fairyring.model import photo
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.shapes import Outline
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.objective import Batch, Caps
+from fairyring.model.network.targets import assign_cells
+from fairyring.model.train.augment import draw_augmentation
+from fairyring.model.train.crops import Crop, CropConfig, cut_crop
+
+CACHED_PHOTOS = 700
+"""Decoded photos kept in memory: about 2 GB at 1280 × 720."""
+
+
+class DataError(FairyringError):
+    """Labels that nothing can be learnt from."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Example:
+    """One labelled photo."""
+
+    path: Path
+    width: int
+    """Upright."""
+    height: int
+    caps: list[Outline]
+    """Visible outlines."""
+    ignored: list[Outline] = field(default_factory=list)
+    """Where nothing is learnt."""
+    light: str | None = None
+    form: str | None = None
+    source: str = ""
+    """Of a stored image: its number and the revisions of its caps."""
+
+
+class SampleConfig(Struct, frozen=True, kw_only=True):
+    """How batches are drawn."""
+
+    crop: CropConfig
+    network: NetworkConfig
+    batch: int
+    soft: bool
+    """Targets are the share of each cell that the cap covers, else whether it covers half of it."""
+    seed: int
+
+
+class Batches(Dataset[Batch]):
+    """Batch number i, always the same for the same examples, settings and i, whatever came before."""
+
+    def __init__(self, examples: Sequence[Example], settings: SampleConfig, *, count: int) -> None:
+        if not any(example.caps for example in examples):
+            raise DataError("No cap is labelled in these images; label some, or give another file.")
+        self.examples = [example for example in examples if example.caps or example.ignored]
+        self.settings, self.count = settings, count
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __getitem__(self, iteration: int) -> Batch:
+        settings = self.settings
+        crops = []
+        for nth in range(settings.batch):
+            rng = np.random.default_rng([settings.seed, iteration, nth])
+            example = self.examples[self._turn(iteration * settings.batch + nth)]
+            crops.append(
+                cut_crop(
+                    read_rgb(example.path),
+                    example.caps,
+                    example.ignored,
+                    augmentation=draw_augmentation(
+                        rng,
+                        most_rotation_deg=settings.crop.most_rotation_deg,
+                        most_brightness=settings.crop.most_brightness,
+                    ),
+                    config=settings.crop,
+                    rng=rng,
+                )
+            )
+        return batch_of(crops, settings.network, soft=settings.soft)
+
+    def _turn(self, drawn: int) -> int:
+        """Every example once in each round, in an order of the round's own."""
+        count = len(self.examples)
+        rng = np.random.default_rng([self.settings.seed, drawn // count, 1 << 20])
+        return int(rng.permutation(count)[drawn % count])
+
+
+def batch_of(crops: Sequence[Crop], network: NetworkConfig, *, soft: bool) -> Batch:
+    """Crops of one size as the network and its losses want them."""
+    return Batch(
+        photos=torch.from_numpy(np.stack([crop.photo for crop in crops]).transpose(0, 3, 1, 2)),
+        origins=torch.tensor([crop.origin for crop in crops], dtype=torch.float32),
+        caps=[_caps_of(crop, network, soft=soft) for crop in crops],
+    )
+
+
+def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
+    height, width = crop.photo.shape[:2]
+    cells = assign_cells(crop.boxes, crop.centres, network, height=height, width=width, ignored=crop.ignored)
+    masks = torch.from_numpy(crop.masks)
+    targets = torch.nn.functional.avg_pool2d(masks[:, None].float(), network.mask_stride)[:, 0]
+    return Caps(
+        masks=masks,
+        targets=targets if soft else _binary(targets),
+        cells=[torch.from_numpy(level) for level in cells],
+    )
+
+
+def _binary(targets: torch.Tensor) -> torch.Tensor:
+    """(n, h, w) shares → 1 where half of a cell is cap; the fullest cells where none is half full."""
+    return (targets >= targets.amax((1, 2), keepdim=True).clamp(max=0.5)).float()
+
+
+@lru_cache(maxsize=CACHED_PHOTOS)
+def read_rgb(path: Path) -> photo.Pixels:
+    """(height, width, 3) uint8, RGB, upright. Raises PhotoError."""
+    return np.ascontiguousarray(photo.read(path)[:, :, ::-1])

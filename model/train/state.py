@@ -1,0 +1,77 @@
+"""What changes while a network is trained, and what it begins with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+import torch
+from torch.optim.swa_utils import AveragedModel
+
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.lite0 import imagenet_weights
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.train.optimiser import average_of, freeze_stages, optimiser_of
+from fairyring.model.train.recipe import Recipe
+
+
+@dataclass(kw_only=True)
+class Run:
+    """What changes from iteration to iteration."""
+
+    network: PRSOLOv2
+    optimiser: torch.optim.Optimizer
+    average: AveragedModel | None
+    iteration: int = 0
+    best: dict[str, Any] = field(default_factory=dict)
+    checked: int = 0
+    """The iteration that was validated last."""
+    stepping: bool = False
+    """Whether the weights are half way between two iterations."""
+
+    @property
+    def kept(self) -> PRSOLOv2:
+        """The network whose weights count: the average where there is one."""
+        return self.network if self.average is None else self.average.module  # pyright: ignore
+
+    def state(self) -> dict[str, Any]:
+        """For a checkpoint."""
+        return {
+            "network": self.network.state_dict(),
+            "optimiser": self.optimiser.state_dict(),
+            "average": self.average.state_dict() if self.average else None,
+            "iteration": self.iteration,
+            "best": msgspec.json.encode(self.best).decode(),
+            "checked": self.checked,
+        }
+
+    def load(self, state: dict[str, Any]) -> None:
+        """From a checkpoint."""
+        self.network.load_state_dict(state["network"])
+        self.optimiser.load_state_dict(state["optimiser"])
+        if self.average is not None:
+            self.average.load_state_dict(state["average"])
+        self.iteration = state["iteration"]
+        self.best = msgspec.json.decode(state["best"])
+        self.checked = state.get("checked", self.iteration)
+
+
+def new_network(recipe: Recipe) -> PRSOLOv2:
+    """From ImageNet where its weights are installed, else from nothing."""
+    network = PRSOLOv2(recipe.network)
+    state = imagenet_weights() if recipe.network.backbone == "lite0" else None
+    if state is not None:
+        load_backbone(network.backbone, state)
+    return network
+
+
+def start_run(network: PRSOLOv2, recipe: Recipe, *, device: torch.device) -> Run:
+    """The first state of a run that trains this very network."""
+    freeze_stages(network, recipe.frozen)
+    network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
+    return Run(
+        network=network,
+        optimiser=optimiser_of(network, recipe),
+        average=average_of(network, recipe.average) if recipe.average else None,
+    )

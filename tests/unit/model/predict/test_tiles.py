@@ -1,0 +1,81 @@
+"""Pieces of large photos."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fairyring.model.predict.tiles import OVERLAP, SIDE, tiles_of
+
+extents = st.integers(1, 9000)
+
+
+@settings(max_examples=80, deadline=None)
+@given(extents, extents, st.floats(0, 1), st.floats(0, 1))
+def test_every_point_of_a_photo_is_one_tiles_own(width: int, height: int, across: float, down: float) -> None:
+    x, y = across * width, down * height
+    assert sum(tile.owns(x, y) for tile in tiles_of(width, height)) == 1
+
+
+@settings(max_examples=80, deadline=None)
+@given(extents, extents)
+def test_seams_belong_to_one_tile(width: int, height: int) -> None:
+    tiles = tiles_of(width, height)
+    for x in {tile.own[2] for tile in tiles if np.isfinite(tile.own[2])}:
+        for y in {tile.own[3] for tile in tiles if np.isfinite(tile.own[3])} | {height / 2}:
+            assert sum(tile.owns(x, y) for tile in tiles) == 1
+
+
+@settings(max_examples=80, deadline=None)
+@given(extents, extents)
+def test_tiles_lie_in_the_photo_and_are_of_one_size(width: int, height: int) -> None:
+    tiles = tiles_of(width, height)
+    assert {(tile.width, tile.height) for tile in tiles} == {(min(width, SIDE), min(height, SIDE))}
+    for tile in tiles:
+        assert 0 <= tile.x <= width - tile.width
+        assert 0 <= tile.y <= height - tile.height
+
+
+@settings(max_examples=150, deadline=None)
+@given(extents, extents, st.floats(0, 1), st.floats(0, 1), st.floats(1, OVERLAP))
+def test_a_cap_up_to_the_overlap_is_whole_in_its_own_tile(
+    width: int, height: int, across: float, down: float, diameter: float
+) -> None:
+    x, y, r = across * width, down * height, diameter / 2
+    (tile,) = [tile for tile in tiles_of(width, height) if tile.owns(x, y)]
+    # What the photo itself cuts off is no loss of the tile's.
+    assert tile.x <= max(0, x - r)
+    assert tile.y <= max(0, y - r)
+    assert tile.x + tile.width >= min(width, x + r)
+    assert tile.y + tile.height >= min(height, y + r)
+
+
+def test_a_small_photo_is_one_piece() -> None:
+    (tile,) = tiles_of(700, 500)
+    assert (tile.x, tile.y, tile.width, tile.height) == (0, 0, 700, 500)
+    assert tile.owns(-5.0, 1e9)
+
+
+def test_a_photo_of_the_usual_size_is_one_piece_and_one_twice_as_wide_three() -> None:
+    assert len(tiles_of(1280, 720)) == 1
+    left, middle, right = tiles_of(2560, 720)
+    assert (left.x, left.y, left.width, left.height) == (0, 0, 1280, 720)
+    assert (middle.x, right.x) == (640, 1280)
+    assert left.own[2] == middle.own[0] == 960
+
+
+def test_no_more_tiles_than_needed() -> None:
+    assert len(tiles_of(SIDE + 1, 100)) == 2
+    assert len(tiles_of(2 * SIDE - OVERLAP, 100)) == 2
+    assert len(tiles_of(2 * SIDE - OVERLAP + 1, 100)) == 3
+    assert [tile.own for tile in tiles_of(2 * SIDE - OVERLAP, 100)] == [
+        (float("-inf"), float("-inf"), 1152.0, float("inf")),
+        (1152.0, float("-inf"), float("inf"), float("inf")),
+    ]
+
+
+def test_slack_widens_what_is_owned_on_every_side() -> None:
+    left, right = tiles_of(2 * SIDE - OVERLAP, 100)
+    assert [left.owns(x, 50, slack=8.0) for x in (1100, 1159.9, 1160)] == [True, True, False]
+    assert [right.owns(x, 50, slack=8.0) for x in (1143.9, 1144, 2200)] == [False, True, True]
