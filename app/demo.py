@@ -12,7 +12,7 @@ from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset
 from fairyring.storage.images import ImageFilter, list_ids
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.project import create_project
 
 

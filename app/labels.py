@@ -18,10 +18,10 @@ from fairyring.model.train.split import split_by_source
 from fairyring.storage.documents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, get_image, list_ids
-from fairyring.storage.intake import Intake, take_in
+from fairyring.storage.importing.intake import Intake, take_in
+from fairyring.storage.importing.sources import Sources, gather
 from fairyring.storage.project import SETTINGS, Project, open_project
 from fairyring.storage.records import Annotation, Cap, Image
-from fairyring.storage.sources import Sources, gather
 
 Item = TypeVar("Item")
 

@@ -7,8 +7,8 @@ from typing import Any, Literal
 from msgspec import Struct, structs
 from sqlalchemy import ColumnElement, Connection, delete, func, insert, select
 
-from fairyring.storage.clock import now
-from fairyring.storage.schema import comparison, image
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.schema import comparison, image
 
 ComparisonSort = Literal["name", "caps", "marked", "missed", "extra", "cdr_mean", "cdr_worst"]
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from msgspec import Struct
 from sqlalchemy import Connection, and_, select, union, update
 
-from fairyring.storage.counting import recount
+from fairyring.storage.db.counters import recount
+from fairyring.storage.db.rows import values_of_fit
+from fairyring.storage.db.schema import annotation, image, prediction
 from fairyring.storage.records import Shape
-from fairyring.storage.rows import values_of_fit
-from fairyring.storage.schema import annotation, image, prediction
 
 
 class Fit(Struct, frozen=True, kw_only=True):

@@ -6,9 +6,7 @@ from typing import Any
 
 from sqlalchemy import Connection, exists, select
 
-from fairyring.storage.offering import offered
-from fairyring.storage.records import Annotation, Document, Prediction, Run
-from fairyring.storage.rows import (
+from fairyring.storage.db.rows import (
     SELECT_ANNOTATIONS,
     SELECT_PREDICTIONS,
     AnySelect,
@@ -19,7 +17,9 @@ from fairyring.storage.rows import (
     require_image,
     run_of,
 )
-from fairyring.storage.schema import annotation, image, prediction, run
+from fairyring.storage.db.schema import annotation, image, prediction, run
+from fairyring.storage.open_predictions import offered
+from fairyring.storage.records import Annotation, Document, Prediction, Run
 
 
 def load_document(connection: Connection, image_id: int) -> Document:

@@ -15,7 +15,8 @@ from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
 from fairyring.model.photo import probe, read
-from fairyring.storage import schema
+from fairyring.storage.db import schema
+from fairyring.storage.db.rows import image_of
 from fairyring.storage.documents import load_annotations, load_document, load_predictions
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco_writing import (
@@ -29,7 +30,6 @@ from fairyring.storage.formats.found import Progress
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
-from fairyring.storage.rows import image_of
 
 Only = Literal["annotated", "approved", "predicted", "all"]
 Cap = Annotation | Prediction

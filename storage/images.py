@@ -8,12 +8,12 @@ from typing import Any, Literal
 from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
 
-from fairyring.storage.checking import check_name
-from fairyring.storage.clock import now
+from fairyring.storage.cap_validity import check_name
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
+from fairyring.storage.db.schema import comparison, image, status_change
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Image, Status
-from fairyring.storage.rows import AnyRow, AnySelect, image_of, require_image
-from fairyring.storage.schema import comparison, image, status_change
 
 Sort = Literal["name", "added", "caps", "cdr"]
 STATUSES: tuple[Status, ...] = ("new", "annotated", "approved")

@@ -9,14 +9,11 @@ from msgspec import Struct, json
 from sqlalchemy import Connection, insert, select, update
 
 from fairyring.model.errors import FairyringError
-from fairyring.storage import schema
-from fairyring.storage.checking import check_cap, check_name
-from fairyring.storage.clock import now
-from fairyring.storage.counting import recount
-from fairyring.storage.errors import StoreError
-from fairyring.storage.project import Project
-from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
-from fairyring.storage.rows import (
+from fairyring.storage.cap_validity import check_cap, check_name
+from fairyring.storage.db import schema
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.counters import recount
+from fairyring.storage.db.rows import (
     SELECT_ANNOTATIONS,
     annotation_of,
     ensure_category,
@@ -26,6 +23,9 @@ from fairyring.storage.rows import (
     values_of_cap,
     values_of_fit,
 )
+from fairyring.storage.errors import StoreError
+from fairyring.storage.project import Project
+from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
 
 DEFAULT_CATEGORY = "mushroom"
 """May be used before anybody has made it; other categories come from imports."""

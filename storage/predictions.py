@@ -9,12 +9,10 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, insert, select, update
 
-from fairyring.storage.checking import are_finite, check_cap, check_name
-from fairyring.storage.clock import now
-from fairyring.storage.counting import recount
-from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Cap, Outline, Run, Shape
-from fairyring.storage.rows import (
+from fairyring.storage.cap_validity import are_finite, check_cap, check_name
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.counters import recount
+from fairyring.storage.db.rows import (
     ensure_category,
     latest_run_row,
     load_categories,
@@ -22,7 +20,9 @@ from fairyring.storage.rows import (
     run_of,
     values_of_fit,
 )
-from fairyring.storage.schema import image, prediction, run
+from fairyring.storage.db.schema import image, prediction, run
+from fairyring.storage.errors import StoreError
+from fairyring.storage.records import Cap, Outline, Run, Shape
 
 
 class NewPrediction(Struct, frozen=True, kw_only=True):

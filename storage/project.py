@@ -18,11 +18,11 @@ from uuid import uuid4
 
 from sqlalchemy import Connection, insert, select
 
-from fairyring.storage import schema
-from fairyring.storage.clock import now
-from fairyring.storage.engine import connect_engine, explained, warn_of_network_drive
+from fairyring.storage.db import schema
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.engine import connect_engine, explained, warn_of_network_drive
+from fairyring.storage.db.upgrade import upgrade
 from fairyring.storage.errors import StoreError
-from fairyring.storage.upgrade import upgrade
 
 T = TypeVar("T")
 

@@ -24,7 +24,7 @@ from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
 from fairyring.app.editing import derive_edits
 from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_images
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import commit
 from fairyring.storage.project import DATABASE, Project, create_project
 from fairyring.storage.records import Cap, Document, Edit

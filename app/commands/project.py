@@ -12,7 +12,7 @@ import typer
 from fairyring.app.commands.progress import shown_on_stderr
 
 if TYPE_CHECKING:
-    from fairyring.storage.importing import ImportReport
+    from fairyring.storage.importing.run import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
@@ -91,7 +91,7 @@ def import_(
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
     from fairyring.app.derive import fill_in
-    from fairyring.storage.importing import import_paths
+    from fairyring.storage.importing.run import import_paths
     from fairyring.storage.project import open_project
 
     if form is not None and form not in tuple("abcdefgh"):

@@ -25,7 +25,7 @@ from typing import Any, TypeVar
 
 from fairyring.model.geometry.raster import check_rle, outline_of_rle
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
-from fairyring.storage.checking import MAX_NAME, MAX_ORDER
+from fairyring.storage.cap_validity import MAX_NAME, MAX_ORDER
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
 from fairyring.storage.formats.values import base_name, flag, kept, number, numbers, read_json, size, text

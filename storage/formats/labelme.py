@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from fairyring.model.geometry.shapes import Circle, Polygon
-from fairyring.storage.checking import MAX_NAME
+from fairyring.storage.cap_validity import MAX_NAME
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
 from fairyring.storage.formats.values import kept, number, numbers, read_json, size

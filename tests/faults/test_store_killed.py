@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from fairyring.storage.documents import load_annotations
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import history
 from fairyring.storage.project import create_project, open_project
 
@@ -41,7 +41,7 @@ with open_project(folder) as project:
 IMPORTER = """
 import os, signal, sys
 from pathlib import Path
-from fairyring.storage import importing
+from fairyring.storage.importing.run import run as importing
 from fairyring.storage.project import open_project
 
 def die(*_, **__):

@@ -15,10 +15,10 @@ from sqlalchemy import update
 
 from fairyring.app.gateway import photos
 from fairyring.app.gateway.photos import is_directly_showable, url_of_photo
+from fairyring.storage.db.schema import image as image_table
 from fairyring.storage.images import find_image
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.project import Project
-from fairyring.storage.schema import image as image_table
 
 ADA = {"Cookie": "fairyring_name=Ada"}
 RED, GREEN, BLUE = (200, 30, 30), (30, 200, 30), (30, 30, 200)

@@ -3,8 +3,8 @@ import random
 import pytest
 from sqlalchemy import insert, update
 
-from fairyring.storage import schema
 from fairyring.storage.comparisons import Comparison, store_comparison
+from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import (
     ImageFilter,

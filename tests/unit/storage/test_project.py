@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select, text
 
-from fairyring.storage import engine, schema, upgrade
-from fairyring.storage.engine import connect_engine, warn_of_network_drive
+from fairyring.storage.db import engine, schema, upgrade
+from fairyring.storage.db.engine import connect_engine, warn_of_network_drive
+from fairyring.storage.db.schema import metadata
 from fairyring.storage.errors import StoreError
 from fairyring.storage.project import back_up, create_project, open_project
-from fairyring.storage.schema import metadata
 
 
 def insert_category(name):

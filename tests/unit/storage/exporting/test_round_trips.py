@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage.documents import load_annotations, load_predictions
-from fairyring.storage.fitting import fit_caps
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_writing import annotation_entry
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.photos import Photo
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import Derived, commit
-from fairyring.storage.placing import Photo
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Annotation, Cap, Edit
 from tests.support.exported import SQUARE, TRIANGLE, export, store

@@ -6,7 +6,7 @@ from concurrent.futures import CancelledError
 import pytest
 
 from fairyring.storage.errors import StoreError
-from fairyring.storage.importing import import_paths
+from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import Derived, commit, history
 from fairyring.storage.records import Cap, Edit
 from tests.support.imported import annotations_of, files_of, rows_of
@@ -41,7 +41,7 @@ def test_an_import_that_is_cancelled_changes_nothing(project, tmp_path, write_co
 
 
 def test_photos_placed_before_a_commit_that_fails_are_removed(project, tmp_path, write_photo, monkeypatch):
-    from fairyring.storage import placing
+    from fairyring.storage.importing.run import photos as placing
 
     def fail(_path):
         raise OSError(28, "No space left on device")

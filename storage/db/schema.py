@@ -11,7 +11,7 @@ from typing import Any
 
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
-from fairyring.storage.columns import Flag, Json, Real
+from fairyring.storage.db.columns import Flag, Json, Real
 from fairyring.storage.records import Cap, Mark, Outline, Shape
 
 metadata = MetaData(

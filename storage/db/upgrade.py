@@ -12,7 +12,7 @@ from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import Connection
 
-from fairyring.storage.engine import connect_engine, explained
+from fairyring.storage.db.engine import connect_engine, explained
 from fairyring.storage.errors import StoreError
 
 

@@ -15,7 +15,7 @@ from msgspec import Struct, field
 from sqlalchemy import Connection, select
 
 from fairyring.model.photo import probe
-from fairyring.storage import schema
+from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.values import base_name
 

@@ -5,7 +5,7 @@ import pytest
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.documents import load_document, load_predictions
 from fairyring.storage.journal import Derived, commit
-from fairyring.storage.offering import offered
+from fairyring.storage.open_predictions import offered
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Annotation, Cap, Edit, Image, Prediction
 

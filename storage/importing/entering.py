@@ -9,17 +9,17 @@ from msgspec import Struct, structs
 from sqlalchemy import Connection, insert, select, update
 
 from fairyring.model.geometry.shapes import polygon_of_shape
-from fairyring.storage import schema
-from fairyring.storage.bulk import insert_many
-from fairyring.storage.clock import now
-from fairyring.storage.counting import recount
-from fairyring.storage.fitting import content_number
+from fairyring.storage.db import schema
+from fairyring.storage.db.bulk import insert_many
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.counters import recount
+from fairyring.storage.db.rows import ensure_category, load_categories, values_of_cap, values_of_fit
 from fairyring.storage.formats.found import FoundCap
 from fairyring.storage.images import sort_name
-from fairyring.storage.placing import Photo
+from fairyring.storage.importing.cap_checks import content_number
+from fairyring.storage.importing.photos import Photo
 from fairyring.storage.predictions import saw
 from fairyring.storage.records import Outline
-from fairyring.storage.rows import ensure_category, load_categories, values_of_cap, values_of_fit
 
 CHUNK = 500
 """Numbers asked for in one statement."""

@@ -9,11 +9,11 @@ from msgspec import Struct, field, structs
 
 from fairyring.model.errors import FairyringError
 from fairyring.storage.errors import StoreError
-from fairyring.storage.fitting import fit_caps
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem, Progress, UnusableError
 from fairyring.storage.formats.values import base_name
-from fairyring.storage.placing import Photo, examine, find_beside
-from fairyring.storage.sources import Document, Sources
+from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.photos import Photo, examine, find_beside
+from fairyring.storage.importing.sources import Document, Sources
 
 
 class Intake(Struct, kw_only=True):

@@ -12,8 +12,10 @@ from typing import Literal
 from msgspec import Struct
 from sqlalchemy import Connection
 
-from fairyring.storage.checking import check_name
-from fairyring.storage.entering import (
+from fairyring.storage.cap_validity import check_name
+from fairyring.storage.errors import StoreError
+from fairyring.storage.formats.found import Problem, Progress
+from fairyring.storage.importing.entering import (
     Entered,
     Labelled,
     enter_annotations,
@@ -22,14 +24,12 @@ from fairyring.storage.entering import (
     refused_as_prediction,
     tell_more,
 )
-from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.found import Problem, Progress
-from fairyring.storage.intake import Intake, take_in
-from fairyring.storage.placing import Photo, Staging, photos_of_project, staging
+from fairyring.storage.importing.intake import Intake, take_in
+from fairyring.storage.importing.photos import Photo, Staging, photos_of_project, staging
+from fairyring.storage.importing.sources import Format, Sources, gather
 from fairyring.storage.predictions import add_run
 from fairyring.storage.project import IMAGES, Project
 from fairyring.storage.records import Run
-from fairyring.storage.sources import Format, Sources, gather
 
 As = Literal["annotations", "predictions"]
 

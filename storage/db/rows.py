@@ -6,9 +6,9 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select
 
+from fairyring.storage.db.schema import annotation, category, image, prediction, run
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Annotation, Cap, Image, Mark, Prediction, Run
-from fairyring.storage.schema import annotation, category, image, prediction, run
 
 Point = tuple[float, float]
 AnyRow = Row[*tuple[Any, ...]]

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from sqlalchemy import Connection, ScalarSelect, bindparam, func, select, update
 
-from fairyring.storage.schema import annotation, image, prediction
+from fairyring.storage.db.schema import annotation, image, prediction
 
 
 def recount(connection: Connection, image_ids: Iterable[int]) -> None:

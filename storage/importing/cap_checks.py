@@ -13,10 +13,10 @@ from msgspec import structs
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.raster import check_mark, check_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
-from fairyring.storage.checking import check_cap
+from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, Problem
-from fairyring.storage.placing import Photo
+from fairyring.storage.importing.photos import Photo
 from fairyring.storage.records import Cap, Outline, Shape
 
 SAME_CENTRE = 0.5
