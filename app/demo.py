@@ -6,8 +6,8 @@ import os
 import tempfile
 from pathlib import Path
 
-from fairyring.app.derive import Progress
-from fairyring.app.predicting import network_of, predict_images
+from fairyring.app.caps.whole_outlines import Progress
+from fairyring.app.jobs.predicting import network_of, predict_images
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset

@@ -5,8 +5,8 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from fairyring.app.bench.browser.tab import Tab, centroid, chromium
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab, centroid, chromium
 from fairyring.app.demo import make_demo
 
 PICTURES = Path(__file__).parent / "pictures"

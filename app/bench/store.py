@@ -15,13 +15,13 @@ from pathlib import Path
 
 import numpy as np
 
-from fairyring.app.bench.leafing import leaf, measured_tab
+from fairyring.app.bench.browser.leafing import leaf, measured_tab
+from fairyring.app.bench.browser.tab import chromium
 from fairyring.app.bench.plain import synced_inserts
 from fairyring.app.bench.projects import Bed, write_labels
 from fairyring.app.bench.serving import served
-from fairyring.app.bench.tab import chromium
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
-from fairyring.app.editing import derive_edits
+from fairyring.app.live.editing import derive_edits
 from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing.run import import_paths

@@ -93,7 +93,7 @@ def cost(
     """
     from fairyring.app.bench.network.cost import cost_rows
     from fairyring.app.bench.network.sets import rendered
-    from fairyring.app.predicting import network_of
+    from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor

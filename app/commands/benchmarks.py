@@ -39,7 +39,7 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
     Example: `fairyring bench editor --json`
     """
-    from fairyring.app.bench import editor as bench
+    from fairyring.app.bench.browser import editor as bench
 
     print_rows("editor", bench.run(quick=quick), as_json=as_json)
 

@@ -77,7 +77,7 @@ def train(
     try:
         with shown_on_stderr(silent=not leads) as shown, stopped_by_sigterm(shown) as progress:
             # Torch and all takes a while to load.
-            from fairyring.app.training import Asked, train_as_asked
+            from fairyring.app.jobs.training import Asked, train_as_asked
 
             asked = Asked(
                 config=config,
@@ -143,7 +143,7 @@ def predict(
     with open_project(folder) as project:
         wanted = _images_called(project, images)
         # Loading torch takes a while, which a wrong name need not wait for.
-        from fairyring.app.predicting import network_of, predict_images
+        from fairyring.app.jobs.predicting import network_of, predict_images
         from fairyring.app.weights import require_weights
 
         network = network_of(weights or require_weights(project), device=device, least_score=least_score)

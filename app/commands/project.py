@@ -90,7 +90,7 @@ def import_(
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
-    from fairyring.app.derive import fill_in
+    from fairyring.app.caps.whole_outlines import fill_in
     from fairyring.storage.importing.run import import_paths
     from fairyring.storage.project import open_project
 
@@ -145,7 +145,7 @@ def export(
 
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
-    from fairyring.app.derive import fill_in
+    from fairyring.app.caps.whole_outlines import fill_in
     from fairyring.storage.exporting import export_coco
     from fairyring.storage.project import open_project
 

@@ -8,8 +8,8 @@ from collections.abc import Awaitable, Callable
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from fairyring.app.exports import exports_folder
-from fairyring.app.gateway.names import name_of
+from fairyring.app.gateway.login import name_of
+from fairyring.app.jobs.exports import exports_folder
 from fairyring.storage.project import Project
 
 _MADE_HERE = re.compile(r"[0-9a-f]{32}\.zip")

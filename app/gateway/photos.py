@@ -14,7 +14,7 @@ import PIL.Image
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from fairyring.app.gateway.names import name_of
+from fairyring.app.gateway.login import name_of
 from fairyring.model import photo
 from fairyring.model.errors import FairyringError
 from fairyring.storage.errors import StoreError

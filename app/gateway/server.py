@@ -23,15 +23,15 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from fairyring.app.gateway.downloads import downloads_of
-from fairyring.app.gateway.editor import editor_of
-from fairyring.app.gateway.files import EditorFiles
-from fairyring.app.gateway.guard import LOOPBACK, Guard
-from fairyring.app.gateway.names import name_page
+from fairyring.app.gateway.login import name_page
 from fairyring.app.gateway.photos import photos_of
-from fairyring.app.gateway.relay import relay_to
-from fairyring.app.gateway.shell import load_shell, shell_page
+from fairyring.app.gateway.security import LOOPBACK, Guard
+from fairyring.app.gateway.socket import editor_of
+from fairyring.app.gateway.static_files import EditorFiles
+from fairyring.app.gateway.viser_page import load_shell, shell_page
+from fairyring.app.gateway.viser_relay import relay_to
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
-from fairyring.app.workspace import Workspace
 from fairyring.model.errors import FairyringError
 from fairyring.storage.project import open_project
 

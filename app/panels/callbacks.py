@@ -9,7 +9,7 @@ from typing import Any
 
 import viser
 
-from fairyring.app.session import Session
+from fairyring.app.live.session import Session
 from fairyring.model.errors import FairyringError
 
 log = logging.getLogger(__name__)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fairyring.app.gateway.photos import url_of_photo
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 from fairyring.storage.images import ImageFilter, ImagePage, ImageRow, list_images, place_in_list
 
 PAGE = 10

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 
-from fairyring.app.exports import Only, export_work
-from fairyring.app.jobs import Job
+from fairyring.app.caps.comparison import compare_work
+from fairyring.app.jobs.exports import Only, export_work
+from fairyring.app.jobs.runner import Job
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.review import compare_work
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 
 EVERY_S = 0.5
 """How often a running job's progress is drawn."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from fairyring.app.panels import cap, images, jobs, predict, review, status, tools, view
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels import images, jobs, predict, review, status, tools
+from fairyring.app.panels import inspector as cap
+from fairyring.app.panels import layers as view
 from fairyring.app.panels.callbacks import Redrawing
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 
 
 def build_panel(workspace: Workspace, session: Session) -> None:

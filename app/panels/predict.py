@@ -8,13 +8,13 @@ from pathlib import Path
 
 import anyio.to_thread
 
-from fairyring.app.jobs import Progress, Result
-from fairyring.app.opening import show_predictions
+from fairyring.app.jobs.runner import Progress, Result
+from fairyring.app.live.opening import show_predictions
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.session import Session
 from fairyring.app.weights import require_weights, weights_of
-from fairyring.app.workspace import Workspace
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
@@ -76,7 +76,7 @@ def predict_work(
     def work(progress: Progress) -> Result:
         progress(0, len(image_ids), "Loading the network")
         # Torch takes seconds to load, and a project can be served without it.
-        from fairyring.app.predicting import leave_a_core, network_of, predict_images
+        from fairyring.app.jobs.predicting import leave_a_core, network_of, predict_images
 
         leave_a_core()
         network = network_of(require_weights(project))

@@ -7,12 +7,12 @@ from typing import get_args
 
 from sqlalchemy import Connection
 
+from fairyring.app.caps.comparison import compare_work
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import run_badge
-from fairyring.app.review import compare_work
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run

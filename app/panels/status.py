@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 from fairyring.storage.records import Run
 
 STATUS_WORDS = {"new": "to do", "annotated": "annotated", "approved": "approved"}

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from fairyring.app.opening import set_status
+from fairyring.app.live.opening import set_status
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import person_did
 from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.session import Session
-from fairyring.app.workspace import Workspace
 from fairyring.storage.records import Status
 
 TOOLS = (

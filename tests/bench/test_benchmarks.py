@@ -10,7 +10,8 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from fairyring.app.bench import editor, store
+from fairyring.app.bench import store
+from fairyring.app.bench.browser import editor
 from fairyring.app.bench.timing import Row, p95_row, row
 from fairyring.app.commands.benchmarks import commands
 from fairyring.model.contour.methods import METHODS

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser
 
+from fairyring.app.bench.browser.tab import Tab, chromium
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab, chromium
 from fairyring.app.demo import make_demo
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from fairyring.app.bench.browser.tab import Tab, centroid
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab, centroid
 from tests.support.kept import journal_of, kept_cap, live_caps
 
 CORNERS = [(12.0, 12.0), (52.0, 10.0), (58.0, 40.0), (30.0, 55.0), (8.0, 38.0)]

@@ -13,8 +13,8 @@ import pytest
 from pycocotools.coco import COCO
 from typer.testing import CliRunner
 
+from fairyring.app.bench.browser.tab import Tab, centroid
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab, centroid
 from fairyring.app.cli import app
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab
 from tests.support.kept import kept_cap, live_caps
 
 BACK = "window.fairyring.state.connection === 'online'"

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server, served
-from fairyring.app.bench.tab import Tab
 from fairyring.app.cli import app
 from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_ids

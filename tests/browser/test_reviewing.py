@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
-from fairyring.app.bench.tab import Tab
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.documents import load_document
 from fairyring.storage.images import ImageFilter, list_images

@@ -15,7 +15,7 @@ import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from fairyring.app.gateway.messages import Edits, Hello, Incoming, Outcomes, Outgoing
+from fairyring.app.protocol import Edits, Hello, Incoming, Outcomes, Outgoing
 from fairyring.storage.records import Cap, Edit
 
 SUBPROTOCOL = "viser-v1.1.1"

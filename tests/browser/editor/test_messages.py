@@ -9,7 +9,7 @@ from typing import get_args
 import msgspec
 import pytest
 
-from fairyring.app.gateway import messages
+from fairyring.app import protocol as messages
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage import records
 

@@ -1,0 +1,104 @@
+"""One tab of a real browser, driven as a person drives it: by pointer and keys, in image coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from playwright.sync_api import Browser, Locator, Page, sync_playwright
+
+from fairyring.app.bench.browser.chromium import FLAGS, REMEDY, find
+from fairyring.model.errors import FairyringError
+
+Point = tuple[float, float]
+WAIT_MS = 30_000
+
+
+@contextmanager
+def chromium() -> Iterator[Browser]:
+    """A headless Chromium; FairyringError where there is none."""
+    path = find()
+    if path is None:
+        raise FairyringError(REMEDY)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=str(path), args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+class Tab:
+    """A page with the editor in it. ``errors`` collects what the page's scripts threw."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.errors: list[str] = []
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+
+    def enter(self, url: str, *, name: str) -> None:
+        """Opens the page, says a name where it is asked for, and waits for the first image."""
+        self.page.goto(url)
+        if self.page.get_by_label("Your name").count():
+            self.page.get_by_label("Your name").fill(name)
+            self.page.keyboard.press("Enter")
+        self.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+        for notice in self.page.get_by_text("Software WebGL rendering detected").all():
+            notice.locator("xpath=../..").get_by_role("button").click()
+
+    def wait_for(self, condition: str) -> None:
+        """Waits until a JavaScript expression is true."""
+        self.page.wait_for_function(f"() => Boolean({condition})", timeout=WAIT_MS)
+
+    def state(self, what: str) -> Any:
+        """Of the editor: shapes, predictions, selection, image, waiting, connection or tool."""
+        return self.page.evaluate(f"() => JSON.parse(JSON.stringify(window.fairyring.state.{what} ?? null))")
+
+    def screen(self, point: Point) -> Point:
+        """Page coordinates of an image point."""
+        at = self.page.evaluate("([x, y]) => window.fairyring.view.toScreen(x, y)", list(point))
+        return at["x"], at["y"]
+
+    def click(self, point: Point, *, count: int = 1) -> None:
+        """Clicks at an image point."""
+        self.page.mouse.click(*self.screen(point), click_count=count)
+
+    def drag(self, start: Point, *way: Point) -> None:
+        """Presses at an image point, moves along the way, lets go at its end."""
+        self.page.mouse.move(*self.screen(start))
+        self.page.mouse.down()
+        for point in way:
+            self.page.mouse.move(*self.screen(point), steps=6)
+        self.page.mouse.up()
+
+    def press(self, *keys: str) -> None:
+        """Presses keys, one after the other."""
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def select(self, point: Point) -> str:
+        """Clicks a cap and returns its uid."""
+        self.click(point)
+        self.wait_for("window.fairyring.state.selection.length === 1")
+        return self.state("selection")[0]
+
+    def open(self, file_name: str) -> None:
+        """Opens an image by a click in the list."""
+        self.row_of(file_name).click()
+        self.wait_for(f"window.fairyring.state.image.file_name === {file_name!r}")
+
+    def row_of(self, file_name: str) -> Locator:
+        """The line of an image in the list."""
+        return self.page.locator("[data-fairyring-open]").filter(has_text=file_name).first
+
+    def saved(self) -> None:
+        """Waits until every edit is acknowledged."""
+        self.wait_for("window.fairyring.state.waiting === 0")
+
+    def shape(self, uid: str) -> dict[str, Any] | None:
+        """A cap as the editor has it, None where it has been deleted."""
+        return next((shape for shape in self.state("shapes") if shape["uid"] == uid), None)
+
+
+def centroid(part: Sequence[float]) -> Point:
+    """Mean of the vertices: a point inside any roundish cap."""
+    return sum(part[0::2]) / (len(part) // 2), sum(part[1::2]) / (len(part) // 2)

@@ -1,0 +1,167 @@
+"""Annotations against predictions: figures of one cap, of an image, and of every image of the latest run.
+
+Only a mark says where a centre truly is, so caps without one are matched and counted but not measured.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable, Sequence
+
+import anyio.to_thread
+
+from fairyring.app.caps.image_caps import Scene, covered_by
+from fairyring.app.caps.nearby import keys_near
+from fairyring.app.jobs.runner import Progress, Result
+from fairyring.model.evaluate import centres
+from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.geometry.raster import rle_of_outline
+from fairyring.model.geometry.shapes import diameter_of_shape
+from fairyring.storage.comparisons import Comparison, stale_images, store_comparison
+from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_version
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Image, Prediction
+
+log = logging.getLogger(__name__)
+
+QUIET_S = 1.0
+"""How long an image is left alone after an edit before its figures are computed anew."""
+
+
+def compare(
+    image: Image, annotations: Sequence[Annotation], predictions: Sequence[Prediction]
+) -> centres.Comparison:
+    """Pairs the caps of an image. Indices are those of ``annotations`` and ``predictions``."""
+    truths = [_truth(annotation, image) for annotation in annotations]
+    guesses = [_guess(prediction, image) for prediction in predictions]
+    return centres.compare(truths, guesses, width=image.width, height=image.height)
+
+
+def compare_cap(scene: Scene, uid: str) -> centres.Pair | None:
+    """The prediction that belongs to one cap, looked for among what lies near it; None where there is none.
+
+    The pair's indices mean nothing to the caller.
+    """
+    covered = {key: covered_by(a) for key, a in scene.annotations.items() if not a.deleted}
+    guesses = {p.id: p for p in scene.predictions}
+    near = keys_near(covered[uid], covered, boxes=scene.boxes)
+    around = keys_near(covered[uid], {key: p.visible for key, p in guesses.items()}, boxes=scene.boxes)
+    found = compare(scene.image, [scene.annotations[key] for key in near], [guesses[key] for key in around])
+    return next((pair for pair in found.pairs if near[pair.truth] == uid), None)
+
+
+def compare_image(project: Project, image_id: int) -> Comparison | None:
+    """Computes and stores the figures of one image; None where no run has seen it."""
+    with project.read() as connection:
+        version = load_version(connection, image_id)
+        document = load_document(connection, image_id)
+        annotations = load_annotations(connection, image_id)
+        predictions = load_predictions(connection, image_id)
+    if document.run is None:
+        return None
+    found = compare(document.image, annotations, predictions)
+    figures = _figures(document.run.id, version, document.image, annotations, found)
+    project.write(lambda connection: store_comparison(connection, figures))
+    return figures
+
+
+def compare_work(project: Project) -> Callable[[Progress], Result]:
+    """The work of a job that brings the figures of every image of the latest run up to date."""
+
+    def work(progress: Progress) -> Result:
+        with project.read() as connection:
+            run = latest_run(connection)
+            stale = stale_images(connection, run.id) if run else []
+        for done, image_id in enumerate(stale):
+            progress(done, len(stale), "Comparing caps with predictions")
+            compare_image(project, image_id)
+        return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
+
+    return work
+
+
+class Reviewer:
+    """Keeps the figures of edited images up to date, in the background, one image at a time."""
+
+    def __init__(
+        self, project: Project, *, compared: Callable[[int], None], quiet_s: float = QUIET_S
+    ) -> None:
+        self._project = project
+        self._compared = compared
+        self._quiet_s = quiet_s
+        self._waiting: dict[int, float] = {}
+        self._task: asyncio.Task[None] | None = None
+
+    def touch(self, image_id: int) -> None:
+        """An annotation of this image has changed."""
+        self._waiting[image_id] = asyncio.get_running_loop().time() + self._quiet_s
+        if self._task is None:
+            self._task = asyncio.create_task(self._run())
+
+    async def close(self) -> None:
+        """Lets the image under way finish and forgets the others; they stay stale in the store."""
+        self._waiting.clear()
+        if self._task is not None:
+            await asyncio.gather(self._task, return_exceptions=True)
+
+    async def _run(self) -> None:
+        try:
+            while self._waiting:
+                image_id, due = min(self._waiting.items(), key=lambda item: item[1])
+                wait = due - asyncio.get_running_loop().time()
+                if wait > 0:
+                    await asyncio.sleep(min(wait, self._quiet_s))
+                    continue
+                del self._waiting[image_id]
+                await anyio.to_thread.run_sync(compare_image, self._project, image_id)
+                self._compared(image_id)
+        except Exception:
+            log.exception("An image could not be compared with its predictions.")
+        finally:
+            self._task = None
+
+
+def _figures(
+    run_id: int, version: int, image: Image, annotations: Sequence[Annotation], found: centres.Comparison
+) -> Comparison:
+    summary = centres.summarise(found.errors)
+    real = [annotation for annotation in annotations if not annotation.cap.ignored]
+    worst = max(
+        ((pair.error.cdr, annotations[pair.truth].uid) for pair in found.pairs if pair.error), default=None
+    )
+    dx, dy = summary.bias_px or (None, None)
+    return Comparison(
+        image=image.id,
+        run=run_id,
+        version=version,
+        caps=len(real),
+        marked=sum(annotation.cap.mark is not None for annotation in real),
+        matched=len(found.pairs),
+        missed=len(found.missed),
+        extra=len(found.extra),
+        cdr_mean=summary.cdr.mean,
+        cdr_worst=worst[0] if worst else None,
+        worst=worst[1] if worst else None,
+        px_mean=summary.px.mean,
+        relative_mean=summary.relative.mean,
+        dx=dx,
+        dy=dy,
+    )
+
+
+def _truth(annotation: Annotation, image: Image) -> CapRecord:
+    marked = annotation.cap.mark is not None
+    return CapRecord(
+        id=annotation.uid,
+        rle=rle_of_outline(covered_by(annotation), height=image.height, width=image.width),
+        centre=annotation.centre if marked else None,
+        diameter=diameter_of_shape(annotation.whole) if annotation.whole else None,
+        ignored=annotation.cap.ignored,
+    )
+
+
+def _guess(prediction: Prediction, image: Image) -> CapRecord:
+    rle = rle_of_outline(prediction.visible, height=image.height, width=image.width)
+    return CapRecord(id=prediction.id, rle=rle, centre=prediction.centre)

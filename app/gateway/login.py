@@ -1,0 +1,48 @@
+"""Until accounts exist: everybody says their name once, and a cookie remembers it."""
+
+from __future__ import annotations
+
+import unicodedata
+from html import escape
+from urllib.parse import quote, unquote
+
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+
+from fairyring.app.gateway.static_files import STATIC
+
+COOKIE = "fairyring_name"
+LONGEST_NAME = 60
+A_YEAR = 365 * 24 * 3600
+
+
+def clean_name(text: str) -> str | None:
+    """A name fit to be stored with edits: printable, single spaces, at most 60 characters; else None."""
+    name = " ".join(unicodedata.normalize("NFC", text).split())
+    return name if 0 < len(name) <= LONGEST_NAME and name.isprintable() else None
+
+
+def name_of(connection: HTTPConnection) -> str | None:
+    """Who sent this request or opened this socket, as far as their cookie says."""
+    return clean_name(unquote(connection.cookies.get(COOKIE, "")))
+
+
+async def name_page(request: Request) -> Response:
+    """GET /name asks for the name, POST /name remembers it and leads to the editor."""
+    if request.method != "POST":
+        return ask_for_name(name_of(request) or "")
+    form = await request.form(max_files=0, max_fields=4)
+    name = clean_name(str(form.get("name", "")))
+    if name is None:
+        problem = f"Please give a name of 1 to {LONGEST_NAME} letters."
+        return ask_for_name(problem=problem, status_code=422)
+    response = RedirectResponse("/", status_code=303)
+    response.set_cookie(COOKIE, quote(name), max_age=A_YEAR, httponly=True, samesite="strict")
+    return response
+
+
+def ask_for_name(name: str = "", *, problem: str = "", status_code: int = 200) -> Response:
+    """The page with one field."""
+    page = (STATIC / "name.html").read_text(encoding="utf-8")
+    filled = page.replace("{{name}}", escape(name)).replace("{{problem}}", escape(problem))
+    return HTMLResponse(filled, status_code=status_code, headers={"Cache-Control": "no-store"})

@@ -1,0 +1,203 @@
+"""The editor's WebSocket: one a tab, JSON text frames, see ``messages.py``."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+
+import anyio.to_thread
+import msgspec
+from msgspec import Struct
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from fairyring.app.gateway.login import name_of
+from fairyring.app.live.editing import Refits, apply_edits
+from fairyring.app.live.opening import open_image, reopen, set_status, step
+from fairyring.app.live.session import MOST_UNSENT, Selection, Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.callbacks import UNEXPECTED
+from fairyring.app.panels.layers import toggle
+from fairyring.app.panels.layout import build_panel
+from fairyring.app.protocol import (
+    Edits,
+    FromServer,
+    Hello,
+    Incoming,
+    Open,
+    Outcomes,
+    Predicted,
+    Refit,
+    Saving,
+    Select,
+    SetStatus,
+    Show,
+    Step,
+    Toggle,
+    Welcome,
+)
+from fairyring.model.errors import FairyringError
+from fairyring.storage.records import Refused
+
+log = logging.getLogger(__name__)
+
+NO_NAME, NO_TAB, TOO_BIG, GONE = 4401, 4403, 1009, 4410
+"""Close codes: say your name first; wait for a new token; message too big; the tab is gone or lags behind."""
+HELLO_WITHIN_S = 15.0
+A_MEGABYTE = 2**20
+
+_incoming = msgspec.json.Decoder(Incoming)
+_outgoing = msgspec.json.Encoder()
+
+
+def editor_of(workspace: Workspace) -> Callable[[WebSocket], Awaitable[None]]:
+    """The endpoint ``/editor``."""
+
+    async def editor(socket: WebSocket) -> None:
+        await socket.accept()
+        user = name_of(socket)
+        if user is None:
+            await socket.close(NO_NAME, "Open the page first and say your name.")
+            return
+        hello = await _hello(socket)
+        session = workspace.tabs.claim(hello.token, user) if hello else None
+        if hello is None or session is None:
+            with suppress(RuntimeError, WebSocketDisconnect):
+                await socket.close(NO_TAB, "This token is not known, or was used before.")
+            return
+        try:
+            await _talk(workspace, session, socket, hello)
+        finally:
+            workspace.tabs.release(session)
+
+    return editor
+
+
+async def _hello(socket: WebSocket) -> Hello | None:
+    """The first message, if it is one and comes in time."""
+    try:
+        async with asyncio.timeout(HELLO_WITHIN_S):
+            message = _incoming.decode(await socket.receive_text())
+    except (TimeoutError, WebSocketDisconnect, KeyError, msgspec.DecodeError):
+        return None
+    return message if isinstance(message, Hello) else None
+
+
+async def _talk(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:
+    """Serves one editor until either side leaves."""
+    outbox = session.outbox = asyncio.Queue[FromServer](MOST_UNSENT)
+    sending = asyncio.create_task(_send_all(socket, outbox))
+    receiving = asyncio.create_task(_receive_all(workspace, session, socket, hello))
+    session.hang_up = receiving.cancel
+    try:
+        done, _ = await asyncio.wait({sending, receiving}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        sending.cancel()
+        receiving.cancel()
+        await asyncio.gather(sending, receiving, return_exceptions=True)
+    for task in done:
+        if task.cancelled():
+            with suppress(RuntimeError, WebSocketDisconnect):
+                await socket.close(GONE)
+        elif error := task.exception():
+            log.error("A tab of %s was closed by an error.", session.user, exc_info=error)
+            with suppress(RuntimeError, WebSocketDisconnect):
+                await socket.close(1011)
+
+
+async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> None:
+    with suppress(WebSocketDisconnect, RuntimeError):
+        while True:
+            message = await outbox.get()
+            await socket.send_text(await _encode(message))
+
+
+async def _encode(message: FromServer) -> str:
+    """As JSON; in a thread where the message may be large."""
+    if isinstance(message, Show | Predicted):
+        return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
+    return _outgoing.encode(message).decode()
+
+
+async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:
+    session.send(Welcome(user=session.user, project=workspace.project.id))
+    session.send(session.layers)
+    build_panel(workspace, session)
+    await reopen(workspace, session, hello.image)
+    refits = Refits(workspace, session)
+    limit = workspace.settings.message_limit_mb * A_MEGABYTE
+    try:
+        while True:
+            text = await socket.receive_text()
+            if len(text) > limit:
+                await socket.close(TOO_BIG, "This message is larger than the server takes.")
+                return
+            await _handle(workspace, session, refits, text)
+    except (WebSocketDisconnect, KeyError):
+        return
+    finally:
+        refits.close()
+
+
+async def _handle(workspace: Workspace, session: Session, refits: Refits, text: str) -> None:
+    """One message. What a person can put right is said to them; the socket stays open."""
+    try:
+        message = _incoming.decode(text)
+    except msgspec.DecodeError as error:
+        _refuse(session, text, reason=str(error))
+        return
+    try:
+        await _carry_out(workspace, session, refits, message)
+    except FairyringError as error:
+        session.notify(str(error), "error")
+    except Exception:
+        log.exception("A message of %s could not be carried out.", session.user)
+        session.notify(UNEXPECTED, "error")
+
+
+async def _carry_out(workspace: Workspace, session: Session, refits: Refits, message: Incoming) -> None:
+    match message:
+        case Edits(edits=edits):
+            await apply_edits(workspace, session, edits)
+        case Refit():
+            refits.ask(message)
+        case Open(image=image, select=select):
+            await open_image(workspace, session, image, select=select)
+        case Step(by=by):
+            await step(workspace, session, by)
+        case Select(annotation=annotation, prediction=prediction):
+            session.selection = Selection(annotation, prediction)
+            session.refresh("cap")
+        case SetStatus(image=image, status=status):
+            await set_status(workspace, session, image, status)
+        case Saving(waiting=waiting):
+            session.waiting = waiting
+            session.refresh("status")
+        case Toggle(layer=layer):
+            toggle(session, layer)
+        case Hello():
+            session.notify("This tab has said hello before.", "warning")
+
+
+class _Named(Struct):
+    id: str
+
+
+class _Unreadable(Struct):
+    """As much of an unreadable change set as it takes to refuse its edits by name."""
+
+    edits: list[_Named] = []
+
+
+def _refuse(session: Session, text: str, *, reason: str) -> None:
+    """Answers a message that cannot be read, so that the browser does not send its edits for ever."""
+    sentence = f"The server cannot read this: {reason}."
+    try:
+        edits = msgspec.json.decode(text, type=_Unreadable).edits
+    except msgspec.DecodeError:
+        edits = []
+    if edits:
+        session.send(Outcomes(outcomes=[Refused(edit=edit.id, reason=sentence) for edit in edits]))
+    else:
+        session.notify(sentence, "error")

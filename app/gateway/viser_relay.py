@@ -1,0 +1,98 @@
+"""The WebSocket at ``/``: every frame goes to viser and back, untouched."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable
+
+from starlette.websockets import WebSocket, WebSocketState
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.typing import Subprotocol
+
+from fairyring.app.gateway.login import name_of
+
+log = logging.getLogger(__name__)
+
+NO_NAME = 4401
+GOING_AWAY = 1001
+UNREACHABLE = 1011
+UNSENDABLE = frozenset({1005, 1006, 1015})
+"""Close codes that only report; a peer may not send them."""
+
+
+def relay_to(port: int) -> Callable[[WebSocket], Awaitable[None]]:
+    """The endpoint for viser on this port of 127.0.0.1."""
+
+    async def relay(browser: WebSocket) -> None:
+        if name_of(browser) is None:
+            await browser.close(NO_NAME, "Open the page first and say your name.")
+            return
+        offered = [Subprotocol(name) for name in browser.scope["subprotocols"]]
+        try:
+            async with connect(
+                f"ws://127.0.0.1:{port}/",
+                subprotocols=offered or None,
+                compression=None,
+                max_size=None,
+                ping_interval=None,
+                proxy=None,
+            ) as upstream:
+                await browser.accept(subprotocol=upstream.subprotocol)
+                await _pump(browser, upstream)
+        except (OSError, WebSocketException) as error:
+            log.warning("The panel's server cannot be reached: %s", error)
+            await browser.close(UNREACHABLE)
+
+    return relay
+
+
+async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
+    """Carries frames both ways until either side closes, then closes the other with the same code."""
+    pumps = {
+        asyncio.create_task(_to_viser(browser, upstream)),
+        asyncio.create_task(_to_browser(browser, upstream)),
+    }
+    try:
+        done, _ = await asyncio.wait(pumps, return_when=asyncio.FIRST_COMPLETED)
+        code, reason = done.pop().result()
+    finally:
+        for pump in pumps:
+            pump.cancel()
+        await asyncio.gather(*pumps, return_exceptions=True)
+    code = GOING_AWAY if code in UNSENDABLE else code
+    await upstream.close(code, reason)
+    if (
+        browser.application_state is WebSocketState.CONNECTED
+        and browser.client_state is WebSocketState.CONNECTED
+    ):
+        await browser.close(code, reason)
+
+
+async def _to_viser(browser: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+    try:
+        while True:
+            frame = await browser.receive()
+            if frame["type"] == "websocket.disconnect":
+                return frame.get("code") or GOING_AWAY, frame.get("reason") or ""
+            data = frame.get("bytes")
+            await upstream.send(frame["text"] if data is None else data)
+    except ConnectionClosed as closed:
+        return _close_of(closed)
+
+
+async def _to_browser(browser: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+    try:
+        while True:
+            frame = await upstream.recv()
+            if isinstance(frame, str):
+                await browser.send_text(frame)
+            else:
+                await browser.send_bytes(frame)
+    except ConnectionClosed as closed:
+        return _close_of(closed)
+
+
+def _close_of(closed: ConnectionClosed) -> tuple[int, str]:
+    return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (GOING_AWAY, "")

@@ -1,0 +1,62 @@
+"""Exports started in the app: a data set made in the project's cache folder, and offered as a zip file."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+from uuid import uuid4
+from zipfile import ZIP_STORED, ZipFile
+
+from fairyring.app.caps.whole_outlines import fill_in
+from fairyring.app.jobs.runner import Progress, Result
+from fairyring.storage.exporting import export_coco
+from fairyring.storage.project import Project
+
+Only = Literal["annotated", "approved", "predicted", "all"]
+KEPT = 3
+"""Zip files that stay in the cache."""
+
+
+def exports_folder(project: Project) -> Path:
+    """Where the zip files lie."""
+    return project.folder / "cache" / "exports"
+
+
+def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]:
+    """The work of an export job: whole outlines that are missing, the data set, the zip file."""
+
+    def work(progress: Progress) -> Result:
+        fill_in(project, progress=progress)
+        exports = exports_folder(project)
+        exports.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=exports) as folder:
+            report = export_coco(project, Path(folder) / "coco", only=only, progress=progress)
+            made = exports / f"{uuid4().hex}.zip"
+            _zip(Path(folder) / "coco", made, progress)
+        _drop_old(exports)
+        message = f"{report.images} images, {report.annotations} annotations."
+        return Result(message, link=f"/downloads/{made.name}")
+
+    return work
+
+
+def _zip(folder: Path, made: Path, progress: Progress) -> None:
+    """Photos are compressed already, so everything is stored as it is."""
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    partial = made.with_suffix(".partial")
+    try:
+        with ZipFile(partial, "w", ZIP_STORED) as archive:
+            for done, file in enumerate(files):
+                progress(done, len(files), "Packing")
+                archive.write(file, file.relative_to(folder))
+        partial.replace(made)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def _drop_old(exports: Path) -> None:
+    newest_first = sorted(exports.glob("*.zip"), key=lambda file: file.stat().st_mtime, reverse=True)
+    for file in newest_first[KEPT:]:
+        file.unlink(missing_ok=True)

@@ -1,0 +1,197 @@
+"""What a network sees in a project's photos, stored image by image, so that stopping loses nothing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+import torch
+from sqlalchemy import Connection
+
+from fairyring.app.caps.whole_outlines import Progress, Whole, wholes_of
+from fairyring.app.jobs.originals import original_of
+from fairyring.model import photo
+from fairyring.model.device import device_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.raster import check_outline
+from fairyring.model.geometry.shapes import GeometryError, Outline
+from fairyring.model.network.config import SIZES, NetworkConfig
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict.predictor import PredictConfig, Predictor
+from fairyring.storage.images import get_image
+from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image
+
+LEAST_SCORE = 0.3
+"""Predictions below are kept from people, who would have to turn down most of them one by one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Network:
+    """A network ready to look at photos, and what its runs are called."""
+
+    predictor: Predictor
+    name: str
+    digest: str
+    """Of the weights."""
+    settings: dict[str, Any]
+    """Whatever else decides what it sees."""
+
+
+@dataclass(kw_only=True)
+class Outcome:
+    """What became of the images that were to be predicted."""
+
+    images: int = 0
+    """Predicted now."""
+    caps: int = 0
+    """Seen in them."""
+    known: int = 0
+    """Images that this run had seen before."""
+    problems: list[str] = field(default_factory=list)
+    """A sentence for each photo that could not be read."""
+
+    def __str__(self) -> str:
+        if not self.images and not self.problems:
+            return f"Nothing to do: these weights have seen {counted(self.known, 'image')} before."
+        parts = [f"{counted(self.images, 'image')} predicted, {counted(self.caps, 'cap')} seen"]
+        if self.known:
+            parts.append(f"{counted(self.known, 'image')} seen by these weights before")
+        if self.problems:
+            parts.append(f"{counted(len(self.problems), 'photo')} could not be read: {self.problems[0]}")
+        return "; ".join(parts).removesuffix(".") + "."
+
+
+def network_of(weights: Path, *, device: str = "auto", least_score: float = LEAST_SCORE) -> Network:
+    """Reads weights; those read last are kept ready. Raises WeightsError, DeviceError."""
+    changed = weights.stat().st_mtime_ns if weights.exists() else 0
+    return _network_of(weights, changed, device, least_score)
+
+
+@lru_cache(maxsize=1)
+def _network_of(weights: Path, _changed: int, device: str, least_score: float) -> Network:
+    on = device_of(device)
+    loaded = load_weights(weights)
+    config, settings = loaded.network.config, PredictConfig(least_score=least_score)
+    predictor = Predictor(loaded.network, device=on, settings=settings)
+    return Network(
+        predictor=predictor,
+        name=f"{weights.stem} {loaded.digest[:8]}",
+        digest=loaded.digest,
+        settings={
+            "network": _size_of(config),
+            "decode": msgspec.to_builtins(settings.decode),
+            "finest": settings.finest,
+            "least_score": least_score,
+        },
+    )
+
+
+def predict_images(
+    project: Project,
+    network: Network,
+    image_ids: Sequence[int],
+    *,
+    redo: bool = False,
+    progress: Progress = lambda *_: None,
+    predicted: Callable[[int], None] = lambda _: None,
+) -> Outcome:
+    """Predicts images, each stored whole in one transaction; ``predicted`` is called with its number then.
+
+    Images that show what this network saw are passed over, unless ``redo``; so the same call again goes on
+    where one was stopped. A photo that cannot be read is told of and passed over. Raises FairyringError where
+    that is so of every one, and whatever ``progress`` raises.
+    """
+    with project.read() as connection:
+        seen = set() if redo else seen_by(connection, weights=network.digest, settings=network.settings)
+        images = [get_image(connection, image_id) for image_id in image_ids if image_id not in seen]
+    outcome = Outcome(known=len(image_ids) - len(images))
+    run = _Run(network, redo)
+    for done, image in enumerate(images):
+        progress(done, len(images), f"Predicting {image.file_name}")
+        try:
+            new = _predictions_of(network, project, image)
+        except FairyringError as error:
+            outcome.problems.append(str(error))
+            continue
+        project.write(lambda connection, image=image, new=new: run.store(connection, image.id, new))
+        outcome.images += 1
+        outcome.caps += len(new)
+        predicted(image.id)
+    if outcome.problems and not outcome.images:
+        raise FairyringError(f"No photo could be read. {outcome.problems[0]}")
+    return outcome
+
+
+def leave_a_core() -> None:
+    """Keeps torch from taking all cores: one is for the server that answers meanwhile."""
+    torch.set_num_threads(max(1, (os.cpu_count() or 1) - 1))
+
+
+class _Run:
+    """The run that predictions go into; it is entered with the first of them."""
+
+    def __init__(self, network: Network, redo: bool) -> None:
+        self._network, self._redo = network, redo
+        self._id: int | None = None
+
+    def store(self, connection: Connection, image_id: int, new: Sequence[NewPrediction]) -> None:
+        """Within ``Project.write``."""
+        if self._id is None:
+            of = self._network
+            run = continued_run(
+                connection, name=of.name, weights=of.digest, settings=of.settings, redo=self._redo
+            )
+            self._id = run.id
+        add_predictions(connection, run_id=self._id, image_id=image_id, predictions=new)
+
+
+def _predictions_of(network: Network, project: Project, image: Image) -> list[NewPrediction]:
+    pixels = photo.read(original_of(project, image))
+    found = [
+        (detection.score, outline)
+        for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
+        if (outline := _usable(detection.outline, image)) is not None
+    ]
+    wholes = wholes_of([outline for _, outline in found], image)
+    return [
+        _prediction(nth, score, outline, whole)
+        for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
+    ]
+
+
+def _usable(outline: Outline, image: Image) -> Outline | None:
+    try:
+        return check_outline(outline, width=image.width, height=image.height)
+    except GeometryError:
+        return None
+
+
+def _prediction(nth: int, score: float, outline: Outline, whole: Whole) -> NewPrediction:
+    spread = whole.centre_sd
+    return NewPrediction(
+        # By its place, so that the same photo seen twice by one run is stored once.
+        uid=f"network-{nth}",
+        visible=outline,
+        score=min(max(score, 0.0), 1.0),
+        whole=whole.shape,
+        centre=whole.centre,
+        refusal=whole.note if whole.shape is None else None,
+        extra={"center_sd": [round(sd, 4) for sd in spread]} if spread else {},
+    )
+
+
+def _size_of(config: NetworkConfig) -> str:
+    return next((name for name, size in SIZES.items() if size == config), f"{config.backbone}, own settings")
+
+
+def counted(count: int, what: str) -> str:
+    """``1 image``, ``2 images``."""
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"

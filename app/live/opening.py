@@ -1,0 +1,121 @@
+"""Showing images: the one asked for, the next of the list, the one to come back to; and their status."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import msgspec
+from sqlalchemy import Connection
+
+from fairyring.app.gateway.photos import url_of_photo
+from fairyring.app.live.session import Selection, Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.protocol import Predicted, Show
+from fairyring.storage import images
+from fairyring.storage.documents import load_version
+from fairyring.storage.errors import StoreError
+from fairyring.storage.images import ImageFilter, Place
+from fairyring.storage.records import Document, Image, Status
+
+CHANGES_IMAGE = ("status", "images", "cap", "review")
+"""The parts of the panel that depend on the image on screen."""
+
+
+@dataclass(frozen=True)
+class _Found:
+    document: Document
+    version: int
+    place: Place
+    near: list[Image]
+
+
+async def open_image(
+    workspace: Workspace, session: Session, image_id: int, *, select: str | None = None
+) -> None:
+    """Shows an image in a tab. Raises StoreError where the project has no such image."""
+    which, shown = session.filter, None
+    # Until the tab shows the image it hears of no changes to it, so a look back follows.
+    while shown is None or await workspace.read(lambda c: load_version(c, image_id)) != shown.version:
+        shown = await workspace.read(lambda c: _find(workspace, c, image_id, which))
+        _show(session, shown, select=select)
+    session.refresh(*CHANGES_IMAGE)
+    workspace.read_ahead([image.id for image in shown.near[:1]])
+
+
+def _find(workspace: Workspace, connection: Connection, image_id: int, which: ImageFilter) -> _Found:
+    place = images.place_in_list(connection, which, image_id)
+    near = [images.get_image(connection, i) for i in (place.next, place.previous) if i is not None]
+    version, document = workspace.documents.load(connection, image_id)
+    return _Found(document, version, place, near)
+
+
+def _show(session: Session, found: _Found, *, select: str | None) -> None:
+    session.show(found.document)
+    session.position, session.count = found.place.position, found.place.count
+    session.selection = Selection(annotation=select)
+    session.send(
+        Show(
+            document=found.document,
+            photo=url_of_photo(found.document.image),
+            select=select,
+            position=session.position,
+            count=session.count,
+            ahead=[url_of_photo(image) for image in found.near],
+        )
+    )
+
+
+async def reopen(workspace: Workspace, session: Session, image_id: int | None) -> None:
+    """Shows the image a tab had on screen before its connection broke, else the first of the list."""
+    if image_id is not None:
+        try:
+            await open_image(workspace, session, image_id)
+            return
+        except StoreError as gone:
+            session.notify(str(gone), "warning")
+    first = await workspace.read(
+        lambda connection: images.list_images(connection, session.filter, limit=1).rows
+    )
+    if first:
+        await open_image(workspace, session, first[0].image.id)
+    else:
+        session.notify("This project has no images yet: fairyring import takes them in.")
+        session.refresh(*CHANGES_IMAGE)
+
+
+async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> None:
+    """Shows the next or the previous image of the list as filtered."""
+    if session.image is None:
+        await reopen(workspace, session, None)
+        return
+    here = session.image.id
+    place = await workspace.read(lambda connection: images.place_in_list(connection, session.filter, here))
+    target = place.next if by == 1 else place.previous
+    if target is None:
+        session.notify(
+            "This is the last image of the list." if by == 1 else "This is the first image of the list."
+        )
+    else:
+        await open_image(workspace, session, target)
+
+
+async def set_status(workspace: Workspace, session: Session, image_id: int, status: Status) -> None:
+    """Says that an image is new, annotated or approved; every tab that shows it or lists it follows."""
+    image = await workspace.write(
+        lambda connection: images.set_status(connection, image_id, status, user=session.user)
+    )
+    for tab in workspace.tabs:
+        if tab.document is not None and tab.shows(image_id):
+            tab.document = msgspec.structs.replace(tab.document, image=image)
+        tab.refresh("status", "images")
+
+
+async def show_predictions(workspace: Workspace, image_id: int) -> None:
+    """Draws what a run has just said of an image in every tab that shows it or lists it."""
+    _, document = await workspace.read(lambda c: workspace.documents.load(c, image_id))
+    for tab in workspace.tabs.others_on(image_id):
+        tab.take_predictions(document)
+        tab.send(Predicted(image=image_id, predictions=document.predictions))
+        tab.refresh("status", "cap")
+    workspace.refresh("images")

@@ -1,0 +1,183 @@
+"""One browser tab: who sits there, which image is on screen, and how to reach it.
+
+All of this lives on the gateway's event loop. viser's callbacks run on viser's own loop and hop over;
+work that waits for the disk or computes hops to a thread and comes back.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import secrets
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+import msgspec
+import viser
+
+from fairyring.app.caps.image_caps import Scene
+from fairyring.app.caps.nearby import Boxes
+from fairyring.app.panels.markup import element
+from fairyring.app.protocol import FromServer, Layers, Notice
+from fairyring.storage.images import ImageFilter
+from fairyring.storage.records import Annotation, Document, Image
+
+log = logging.getLogger(__name__)
+
+MOST_UNSENT = 2000
+"""Messages a tab may lag behind before it is cut off; it comes back to a fresh document."""
+LAYERS = {
+    "photo": True,
+    "outline": True,
+    "fill": True,
+    "whole": True,
+    "centre": True,
+    "label": False,
+    "prediction": True,
+}
+"""What is drawn in a new tab."""
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What the editor has selected, for the inspector."""
+
+    annotation: str | None = None
+    prediction: int | None = None
+
+
+@dataclass(eq=False, kw_only=True)
+class Session:
+    """A tab, from the moment viser's client connects until it disconnects."""
+
+    client: viser.ClientHandle
+    beacon: viser.GuiHtmlHandle
+    """The element that carries the token into the page."""
+    token: str | None
+    """Good for one editor socket; None while that socket is open."""
+    user: str = ""
+    has_panel: bool = False
+    redraw: Callable[[tuple[str, ...]], None] = lambda _parts: None
+    """Draws these parts of the panel anew, soon."""
+    outbox: asyncio.Queue[FromServer] | None = None
+    """To the editor's socket; None while the editor is not connected."""
+    hang_up: Callable[[], object] = lambda: None
+    """Ends the editor's socket."""
+    document: Document | None = None
+    """The image on screen as it was opened, by ``show``; ``annotations`` is kept up to date."""
+    annotations: dict[str, Annotation] = field(default_factory=dict)
+    boxes: Boxes = field(default_factory=Boxes)
+    _scene: Scene | None = field(default=None, init=False, repr=False)
+    filter: ImageFilter = field(default_factory=ImageFilter)
+    """Which images the list shows, and so what comes next."""
+    position: int = 0
+    count: int = 0
+    selection: Selection = field(default_factory=Selection)
+    layers: Layers = field(default_factory=lambda: Layers(visible=dict(LAYERS)))
+    waiting: int = 0
+    """Edits the browser holds that are not acknowledged yet, by its own account."""
+
+    @property
+    def image(self) -> Image | None:
+        """The image on screen."""
+        return self.document.image if self.document else None
+
+    @property
+    def scene(self) -> Scene | None:
+        """The image on screen with its caps as they are now; the same until one of them changes."""
+        if self.document is None:
+            return None
+        if self._scene is None or self._scene.image is not self.document.image:
+            annotations, predictions = dict(self.annotations), self.document.predictions
+            self._scene = Scene(self.document.image, annotations, predictions, self.boxes)
+        return self._scene
+
+    def shows(self, image_id: int) -> bool:
+        """Whether this image is on screen."""
+        return self.image is not None and self.image.id == image_id
+
+    def send(self, message: FromServer) -> None:
+        """Queues a message for the editor; dropped while it is away, as it comes back to a fresh document."""
+        if self.outbox is None:
+            return
+        try:
+            self.outbox.put_nowait(message)
+        except asyncio.QueueFull:
+            log.warning("A tab of %s does not read its messages; it is cut off.", self.user)
+            self.hang_up()
+
+    def notify(self, text: str, level: Literal["info", "warning", "error"] = "info") -> None:
+        """A sentence for the person at this tab."""
+        self.send(Notice(text=text, level=level))
+
+    def refresh(self, *parts: str) -> None:
+        """Asks for parts of the panel to be drawn anew."""
+        self.redraw(parts)
+
+    def show(self, document: Document) -> None:
+        """Notes that another document is on screen."""
+        self.document = document
+        self.annotations = {annotation.uid: annotation for annotation in document.annotations}
+        self.boxes, self._scene = Boxes(), None
+
+    def take_in(self, annotations: list[Annotation]) -> None:
+        """Notes what has become of annotations of the image on screen."""
+        for annotation in annotations:
+            if self.shows(annotation.image):
+                self.annotations[annotation.uid] = annotation
+                self._scene = None
+
+    def take_predictions(self, document: Document) -> None:
+        """Notes what a later run said of the image on screen."""
+        if self.document is not None and self.shows(document.image.id):
+            self.document = msgspec.structs.replace(
+                self.document, predictions=document.predictions, run=document.run
+            )
+            self._scene = None
+
+
+class Tabs:
+    """Every open tab of the project. Tabs never share anything but the store."""
+
+    def __init__(self) -> None:
+        self._sessions: dict[int, Session] = {}
+
+    def __iter__(self) -> Iterator[Session]:
+        return iter(tuple(self._sessions.values()))
+
+    def arrive(self, client: viser.ClientHandle) -> None:
+        """viser has a new client: its panel shows nothing but a token, unseen, until the editor brings it."""
+        token = secrets.token_urlsafe(24)
+        beacon = client.gui.add_html(_beacon(token), order=-1)
+        self._sessions[client.client_id] = Session(client=client, beacon=beacon, token=token)
+
+    def leave(self, client: viser.ClientHandle) -> None:
+        """viser's client is gone, and its editor with it."""
+        session = self._sessions.pop(client.client_id, None)
+        if session is not None:
+            session.hang_up()
+
+    def claim(self, token: str, user: str) -> Session | None:
+        """The tab this token was put into, if nobody has used it yet."""
+        for session in self:
+            if session.token is not None and secrets.compare_digest(session.token, token):
+                session.token, session.user = None, user
+                return session
+        return None
+
+    def release(self, session: Session) -> None:
+        """The editor's socket is closed: a new token lets the same tab come back."""
+        session.outbox = None
+        session.hang_up = lambda: None
+        if session.client.client_id in self._sessions:
+            session.token = secrets.token_urlsafe(24)
+            session.beacon.content = _beacon(session.token)
+
+    def others_on(self, image_id: int, *, besides: Session | None = None) -> Iterator[Session]:
+        """Tabs that show this image."""
+        return (session for session in self if session is not besides and session.shows(image_id))
+
+
+def _beacon(token: str) -> str:
+    return str(element("div", id="fairyring-tab", data_token=token))

@@ -1,0 +1,86 @@
+"""What a served project consists of, handed to everything that needs it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeVar
+
+import anyio.to_thread
+from sqlalchemy import Connection
+
+from fairyring.app.caps.comparison import Reviewer
+from fairyring.app.jobs.runner import Job, Jobs, Progress, Result
+from fairyring.app.live.read_ahead import Documents
+from fairyring.app.live.session import Session, Tabs
+from fairyring.app.settings import Settings
+from fairyring.model.errors import FairyringError
+from fairyring.storage.project import Project
+
+Found = TypeVar("Found")
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """One project, open in any number of tabs."""
+
+    project: Project
+    settings: Settings
+    tabs: Tabs = field(default_factory=Tabs)
+    jobs: Jobs = field(default_factory=Jobs)
+    documents: Documents = field(default_factory=Documents)
+    _ahead: set[asyncio.Task[None]] = field(default_factory=set)
+
+    @cached_property
+    def reviewer(self) -> Reviewer:
+        """Compares images with their predictions after edits."""
+        return Reviewer(self.project, compared=lambda _image: self.refresh("review", "images"))
+
+    def refresh(self, *parts: str) -> None:
+        """Draws parts of every tab's panel anew."""
+        for tab in self.tabs:
+            tab.refresh(*parts)
+
+    def start_job(self, session: Session, title: str, work: Callable[[Progress], Result]) -> None:
+        """Starts long work for the person at a tab, who is told when it has ended."""
+
+        def finished(job: Job) -> None:
+            session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
+            self.refresh("jobs", "predict", "review", "images")
+
+        self.jobs.start(title, work, user=session.user, finished=finished)
+        self.refresh("jobs")
+
+    def read_ahead(self, image_ids: Sequence[int]) -> None:
+        """Loads images that somebody is likely to open next, in the background."""
+
+        async def load() -> None:
+            for image_id in image_ids:
+                with suppress(FairyringError):
+                    await self.read(lambda connection, i=image_id: self.documents.load(connection, i))
+
+        task = asyncio.create_task(load())
+        self._ahead.add(task)
+        task.add_done_callback(self._ahead.discard)
+
+    async def close(self) -> None:
+        """Stops what runs in the background."""
+        await self.jobs.close()
+        await self.reviewer.close()
+        await asyncio.gather(*self._ahead, return_exceptions=True)
+
+    async def read(self, query: Callable[[Connection], Found]) -> Found:
+        """Runs a query in a thread, so that the event loop never waits for the disk."""
+
+        def run() -> Found:
+            with self.project.read() as connection:
+                return query(connection)
+
+        return await anyio.to_thread.run_sync(run)
+
+    async def write(self, work: Callable[[Connection], Found]) -> Found:
+        """Runs a transaction; it is on disk when this returns."""
+        return await anyio.to_thread.run_sync(self.project.write, work)

@@ -1,0 +1,208 @@
+"""The inspector: everything known about the selected cap, or a summary of the image."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from sqlalchemy import Connection
+
+from fairyring.app.caps.comparison import compare_cap
+from fairyring.app.caps.image_caps import Scene
+from fairyring.app.caps.whole_outlines import Whole, whole_of
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.callbacks import Redraw
+from fairyring.app.panels.icons import icon
+from fairyring.app.panels.markup import EMPTY, Content, Markup, element
+from fairyring.app.panels.status import run_badge
+from fairyring.model.evaluate.centres import Pair
+from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.storage.documents import load_prediction, load_predictions, load_run
+from fairyring.storage.journal import Entry, history
+from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
+
+COMMANDS = {
+    "accept": "Accept this prediction (A)",
+    "mark": "Take the outline as mark, or clear the mark (M)",
+    "doubtful": "Doubtful: a careful person could disagree (D)",
+    "ignored": "Ignored: counts neither way (I)",
+    "delete": "Delete (Del)",
+}
+Facts = list[tuple[str, Content]]
+
+
+@dataclass(frozen=True)
+class Background:
+    """What the store and the contour methods say about an annotation."""
+
+    entries: Sequence[Entry]
+    prediction: Prediction | None
+    run: Run | None
+    whole: Whole
+    pair: Pair | None
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """The inspector."""
+    shown = session.client.gui.add_html("")
+
+    async def redraw() -> None:
+        shown.content = (await _inspect(workspace, session)).html
+
+    return redraw
+
+
+async def _inspect(workspace: Workspace, session: Session) -> Markup:
+    scene, selection = session.scene, session.selection
+    if scene is None or session.document is None:
+        return EMPTY
+    annotation = scene.annotations.get(selection.annotation or "")
+    if annotation is not None and not annotation.deleted:
+        return annotation_facts(annotation, await _background(workspace, scene, annotation))
+    for prediction in scene.predictions:
+        if prediction.id == selection.prediction:
+            return prediction_facts(prediction, session.document.run)
+    return summary(session)
+
+
+async def _background(workspace: Workspace, scene: Scene, annotation: Annotation) -> Background:
+    started_from = annotation.cap.prediction
+
+    def gather(connection: Connection) -> Background:
+        # A cap is compared with all that was said, also with what is not offered where the cap lies.
+        said = replace(scene, predictions=load_predictions(connection, scene.image.id))
+        prediction = load_prediction(connection, started_from) if started_from is not None else None
+        return Background(
+            entries=history(connection, annotation.uid),
+            prediction=prediction,
+            run=load_run(connection, prediction.run) if prediction else None,
+            whole=whole_of(annotation.uid, annotation.cap, scene),
+            pair=compare_cap(said, annotation.uid),
+        )
+
+    return await workspace.read(gather)
+
+
+def annotation_facts(annotation: Annotation, background: Background) -> Markup:
+    """An annotation's inspector."""
+    cap = annotation.cap
+    flags = [
+        element("span", word, class_="fr-badge fr-warn")
+        for word, raised in (("ignored", cap.ignored), ("doubtful", cap.doubtful))
+        if raised
+    ]
+    order = "not set" if cap.order is None else f"{cap.order} (higher lies in front)"
+    facts: Facts = [
+        ("Centre", _point(annotation.centre)),
+        ("Whole", _shape(annotation.whole)),
+        ("Fit", background.whole.note),
+        ("Mark", _mark(cap.mark)),
+        *_error_facts(background.pair),
+        ("Overlap", order),
+        ("From", _origin(background)),
+        ("Edited", _last_edit(annotation, background.entries)),
+    ]
+    title = element("strong", f"Cap {annotation.uid[:8]}", title=annotation.uid)
+    return _inspector(title, *flags, facts=facts, commands=("mark", "doubtful", "ignored", "delete"))
+
+
+def _error_facts(pair: Pair | None) -> Facts:
+    if pair is None:
+        return [("Prediction", "none matches this cap")]
+    if pair.error is None:
+        return [("CDR", "mark the cap to measure its prediction")]
+    error = pair.error
+    signed = f"Δx {error.dx:+.2f}, Δy {error.dy:+.2f} px"
+    share = "" if error.relative is None else f", {100 * error.relative:.2f} % of the diameter"
+    return [
+        ("CDR", element("span", f"{error.cdr:.3f} %", class_="fr-figure", title=signed)),
+        ("Error", f"{error.px:.2f} px{share}"),
+    ]
+
+
+def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
+    """A prediction's inspector."""
+    facts: Facts = [
+        ("Centre", _point(prediction.centre)),
+        ("Whole", _shape(prediction.whole)),
+        ("Score", f"{prediction.score:.3f}"),
+        ("Run", run_badge(run) if run else "unknown"),
+    ]
+    return _inspector(
+        element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete")
+    )
+
+
+def summary(session: Session) -> Markup:
+    """What the image on screen holds, while nothing is selected."""
+    assert session.document is not None
+    live = [a for a in session.annotations.values() if not a.deleted]
+    real = [a for a in live if not a.cap.ignored]
+    touched = {a.cap.prediction for a in session.annotations.values()}
+    waiting = sum(p.id not in touched for p in session.document.predictions)
+    facts: Facts = [
+        ("Caps", f"{len(real)}, {sum(a.cap.mark is not None for a in real)} marked"),
+        ("Ignored", len(live) - len(real)),
+        ("Predictions", f"{waiting} open" if waiting else "none open"),
+    ]
+    return _inspector(element("span", "Nothing selected", class_="fr-quiet"), facts=facts)
+
+
+def _inspector(*title: Markup, facts: Facts, commands: tuple[str, ...] = ()) -> Markup:
+    buttons = [
+        element(
+            "button",
+            icon(name),
+            type="button",
+            title=COMMANDS[name],
+            aria_label=COMMANDS[name],
+            data_fairyring_command=name,
+        )
+        for name in commands
+    ]
+    rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
+    return element(
+        "section",
+        element("div", *title, element("span", *buttons, class_="fr-actions"), class_="fr-line"),
+        element("dl", *rows),
+        class_="fr-cap",
+        aria_label="Selected cap",
+    )
+
+
+def _point(point: tuple[float, float] | None) -> str:
+    return "not known" if point is None else f"{point[0]:.2f}, {point[1]:.2f} px"
+
+
+def _shape(shape: Shape | None) -> str:
+    if shape is None:
+        return "not known"
+    if isinstance(shape, Circle):
+        return f"circle ⌀ {2 * shape.r:.1f} px"
+    return f"ellipse {2 * shape.a:.1f} × {2 * shape.b:.1f} px at {shape.theta_deg:.0f}°"
+
+
+def _mark(mark: Mark | None) -> str:
+    if mark is None:
+        return "none: the fit gives the centre"
+    if isinstance(mark, Circle):
+        return f"circle ⌀ {2 * mark.r:.1f} px"
+    return f"polygon of {len(mark.points) // 2} points" if isinstance(mark, Polygon) else "ellipse"
+
+
+def _origin(background: Background) -> Content:
+    prediction = background.prediction
+    if prediction is None:
+        return (
+            "imported" if background.entries and background.entries[0].user == "import" else "drawn by hand"
+        )
+    badge = run_badge(background.run) if background.run else "a prediction"
+    return element("span", badge, f" score {prediction.score:.2f}")
+
+
+def _last_edit(annotation: Annotation, entries: Sequence[Entry]) -> str:
+    if not entries:
+        return f"revision {annotation.revision}"
+    last = entries[-1]
+    return f"{last.user}, {last.made_at[:16].replace('T', ' ')} UTC, revision {last.revision}"

@@ -1,0 +1,114 @@
+"""Figures of caps and images, worked out by hand on two round caps in a photo of 160 × 120."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+from fairyring.app.caps.comparison import Reviewer, compare_cap, compare_image, compare_work
+from fairyring.app.caps.image_caps import Scene
+from fairyring.app.caps.whole_outlines import fill_in
+from fairyring.app.jobs.runner import CancelledError
+from fairyring.app.protocol import Show
+from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
+from fairyring.storage.documents import load_annotations, load_predictions
+from fairyring.storage.images import get_image
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
+from fairyring.storage.records import Edit
+from tests.support.tab import Tab, new_cap, until
+from tests.unit.app.conftest import circle
+
+
+def mark_both(project: Project) -> None:
+    """Marks the left cap 1.6 px left of and 0.6 px below its prediction's centre, the right one on it."""
+    fill_in(project)
+    with project.read() as connection:
+        left, right = load_predictions(connection, 1)
+    centres = {"left": (left.centre[0] - 1.6, left.centre[1] + 0.6), "right": right.centre}
+    outlines = {"left": circle(40, 40, 20), "right": circle(110, 60, 25)}
+    edits = [
+        new_cap(1, uid=uid, edit=uid, visible=outlines[uid], mark=Circle(*centre, 20))
+        for uid, centre in centres.items()
+    ]
+    far = new_cap(1, uid="far", edit="far", visible=circle(75, 105, 8))
+    commit(project, [Derived(edit=edit, **_fit(edit)) for edit in (*edits, far)], user="Ada")
+
+
+def _fit(edit: Edit) -> dict:
+    mark = edit.cap.mark if edit.cap else None
+    return {"whole": mark, "centre": (mark.cx, mark.cy)} if mark else {}
+
+
+def test_an_image_is_compared_as_equation_10_says(project: Project) -> None:
+    mark_both(project)
+    figures = compare_image(project, 1)
+    assert figures is not None
+    assert (figures.caps, figures.marked, figures.matched, figures.missed, figures.extra) == (3, 2, 2, 1, 0)
+    assert figures.cdr_worst == pytest.approx(100 * (1.6 / 160 + 0.6 / 120))
+    assert figures.cdr_mean == pytest.approx(figures.cdr_worst / 2)
+    assert figures.worst == "left"
+    assert figures.px_mean == pytest.approx((1.6**2 + 0.6**2) ** 0.5 / 2)
+    assert figures.relative_mean == pytest.approx(figures.px_mean / 40)
+    assert (figures.dx, figures.dy) == (pytest.approx(0.8), pytest.approx(-0.3))
+
+
+def test_a_cap_is_compared_among_its_neighbours_with_the_same_result(project: Project) -> None:
+    mark_both(project)
+    with project.read() as connection:
+        image = get_image(connection, 1)
+        annotations = {a.uid: a for a in load_annotations(connection, 1)}
+        scene = Scene(image, annotations, load_predictions(connection, 1))
+    pair = compare_cap(scene, "left")
+    assert pair is not None
+    assert pair.error is not None
+    assert pair.error.cdr == pytest.approx(1.5)
+    assert compare_cap(scene, "far") is None
+
+
+def test_an_image_no_run_has_seen_is_not_compared(project: Project) -> None:
+    assert compare_image(project, 2) is None
+
+
+def test_the_job_compares_what_is_stale_and_can_be_cancelled(project: Project) -> None:
+    mark_both(project)
+
+    def cancel(*_: object) -> None:
+        raise CancelledError
+
+    with pytest.raises(CancelledError):
+        compare_work(project)(cancel)
+    assert compare_work(project)(lambda *_: None).message == "1 images compared."
+    assert compare_work(project)(lambda *_: None).message == "Every image was up to date."
+
+
+def test_after_edits_an_image_is_compared_once_in_the_background(project: Project) -> None:
+    mark_both(project)
+
+    async def edit_thrice() -> list[int]:
+        compared: list[int] = []
+        reviewer = Reviewer(project, compared=compared.append, quiet_s=0.05)
+        for _ in range(3):
+            reviewer.touch(1)
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.5)
+        await reviewer.close()
+        return compared
+
+    assert asyncio.run(edit_thrice()) == [1]
+    with project.read() as connection:
+        assert stale_images(connection, 1) == []
+
+
+def test_an_edit_in_a_tab_brings_the_review_up_to_date(port: int, project: Project) -> None:
+    fill_in(project)
+    with Tab(port, image=1) as tab:
+        left = tab.expect(Show).document.predictions[0]
+        tab.edit(new_cap(1, visible=left.visible, mark=Circle(left.centre[0] + 3.2, left.centre[1], 20)))
+        until(lambda: "up to 2.00 %" in tab.panel.html, "the plot")
+        assert 'data-fairyring-select="cap-1"' in tab.panel.html
+    with project.read() as connection:
+        assert get_comparison(connection, 1, 1).dx == pytest.approx(-3.2)
+        assert list_comparisons(connection, 1).total == 1

@@ -1,0 +1,129 @@
+"""Nothing a person or a file says is ever read as HTML."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fairyring.app.caps.whole_outlines import Whole
+from fairyring.app.jobs.runner import Job
+from fairyring.app.live.session import Session
+from fairyring.app.panels import images, jobs, review, status
+from fairyring.app.panels import inspector as cap
+from fairyring.app.panels.inspector import Background
+from fairyring.app.panels.markup import element
+from fairyring.model.evaluate.centres import Pair
+from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.comparisons import Comparison, ComparisonRow
+from fairyring.storage.images import ImagePage, ImageRow
+from fairyring.storage.journal import Entry
+from fairyring.storage.records import Annotation, Cap, Document, Image, Prediction, Run
+
+EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
+HARMLESS_TAGS = (
+    "a button dd div dl dt figcaption figure header img kbd li p path progress section span strong svg table "
+    "tbody td th thead tr ul"
+)
+
+
+class Reader(HTMLParser):
+    """Reads HTML as a browser does: elements, attributes and text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += attrs
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def read(html: str) -> Reader:
+    reader = Reader()
+    reader.feed(html)
+    return reader
+
+
+@given(text=st.text(), value=st.text())
+def test_text_and_attributes_come_out_as_they_went_in(text: str, value: str) -> None:
+    page = read(element("p", text, title=value, data_some_thing=value, hidden=False).html)
+    assert page.tags == ["p"]
+    clean = [part.replace("\r\n", "\n").replace("\r", "\n").replace("\0", "") for part in (page.text, text)]
+    assert clean[0] == clean[1] or "\0" in text
+    assert page.attributes == [("title", value), ("data-some-thing", value)]
+
+
+def test_markup_inside_markup_is_not_escaped_twice() -> None:
+    assert element("p", element("b", "a & b"), None, 3).html == "<p><b>a &amp; b</b>3</p>"
+
+
+IMAGE = Image(id=1, file_name=EVIL, path=EVIL, width=100, height=80, sha256="0" * 64, light=EVIL, form=EVIL)
+RUN = Run(id=1, name=EVIL, kind="network", made_at=EVIL)
+PREDICTION = Prediction(id=1, run=1, image=1, visible=[], score=0.5, category=EVIL)
+ANNOTATION = Annotation(
+    uid=EVIL,
+    image=1,
+    revision=1,
+    cap=Cap(visible=[], category=EVIL, doubtful=True, ignored=True, mark=Circle(1.0, 2.0, 3.0)),
+    whole=Circle(1.0, 2.0, 3.0),
+    centre=(1.0, 2.0),
+)
+FIGURES = Comparison(
+    image=1, run=1, version=1, caps=1, marked=1, matched=1, missed=0, extra=0,
+    cdr_mean=0.1, cdr_worst=0.2, worst=EVIL, dx=0.1, dy=-0.2,
+)  # fmt: skip
+
+
+def session() -> Session:
+    nobody = object()
+    opened = Session(client=nobody, beacon=nobody, token=None, user=EVIL)
+    opened.document = Document(image=IMAGE, annotations=[ANNOTATION], predictions=[PREDICTION], run=RUN)
+    return opened
+
+
+def every_panel() -> dict[str, str]:
+    """Each panel's HTML, fed with hostile strings wherever a person or a file has a say."""
+    entry = Entry(
+        id=EVIL, annotation=EVIL, image=1, revision=1, before=None, after=None, user=EVIL, made_at=EVIL
+    )
+    background = Background(
+        entries=[entry],
+        prediction=PREDICTION,
+        run=RUN,
+        whole=Whole(None, EVIL),
+        pair=Pair(truth=0, prediction=0, iou=1.0, error=None),
+    )
+    row = ImageRow(image=IMAGE, caps=1, ignored=0, predicted=1, cdr_mean=0.1, cdr_worst=0.2, worst=EVIL)
+    told = Job(id=1, title=EVIL, user=EVIL, state="failed", message=EVIL, link=EVIL)
+    running = Job(id=2, title=EVIL, user=EVIL, what=EVIL, total=3)
+    reviewed = review.Review(RUN, [ComparisonRow(file_name=EVIL, comparison=FIGURES, stale=True)], 1, 1)
+    return {
+        "status": status.header(session()).html,
+        "images": images.image_list(ImagePage(rows=[row], total=1), 0, 1).html,
+        "annotation": cap.annotation_facts(ANNOTATION, background).html,
+        "prediction": cap.prediction_facts(PREDICTION, RUN).html,
+        "summary": cap.summary(session()).html,
+        "review": review.review_page(reviewed, 0, 1).html,
+        "jobs": jobs.job_list([told, running]).html,
+    }
+
+
+def test_hostile_strings_stay_text_in_every_panel() -> None:
+    for name, html in every_panel().items():
+        page = read(html)
+        assert set(page.tags) <= set(HARMLESS_TAGS.split()), name
+        assert not [key for key, _ in page.attributes if key.startswith("on")], name
+        assert not [value for key, value in page.attributes if key == "src" and value == "x"], name
+        assert EVIL in page.text or name in {"summary", "images"}, name
+
+
+def test_a_simulated_run_is_called_that_plainly() -> None:
+    simulated = Run(id=1, name="nicely named", kind="simulated", made_at="")
+    assert read(status.run_badge(simulated).html).text == "simulated predictions"
