@@ -10,16 +10,16 @@ demo: .venv/product
 	@$(BIN)/fairyring serve demo --port $(PORT)
 
 test: .venv/development
-	@$(BIN)/python -m fairyring.app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/python -m pytest $(ARGS)
 
 bench: .venv/development
-	@$(BIN)/python -m fairyring.app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
 
 pictures: .venv/development
-	@$(BIN)/python -m fairyring.app.bench.chromium
+	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/python -m docs.take_screenshots
 
 lint: .venv/development .venv/typing

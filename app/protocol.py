@@ -1,6 +1,6 @@
 """What the editor and the server say to each other, as JSON text frames over one WebSocket a tab.
 
-``static/editor/messages.js`` says the same in JSDoc types; a test compares the two.
+``static/editor/protocol.js`` says the same in JSDoc types; a test compares the two.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""Geometry, contours, network, renderer, evaluation; nothing of the app or the store."""

@@ -1,0 +1,1 @@
+"""The one port that browsers talk to, in front of viser."""

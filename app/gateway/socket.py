@@ -1,4 +1,4 @@
-"""The editor's WebSocket: one a tab, JSON text frames, see ``messages.py``."""
+"""The editor's WebSocket: one a tab, JSON text frames, see ``app.protocol``."""
 
 from __future__ import annotations
 

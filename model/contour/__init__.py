@@ -1,0 +1,1 @@
+"""Whole outlines and centres from visible masks (the paper's section 5, and better)."""

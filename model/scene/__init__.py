@@ -1,0 +1,1 @@
+"""The renderer of beds whose hidden outlines are known."""

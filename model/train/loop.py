@@ -27,11 +27,11 @@ from fairyring.model.network.losses import DICE_WEIGHT
 from fairyring.model.network.objective import Batch, Losses, losses_of
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import save_weights
+from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import load_checkpoint, save_checkpoint
 from fairyring.model.train.data import Example
 from fairyring.model.train.distributed import Place, together
 from fairyring.model.train.loading import batches_of
-from fairyring.model.train.loop import log as train_log
 from fairyring.model.train.optimiser import freeze_statistics, rate_at, set_rate
 from fairyring.model.train.recipe import Recipe
 from fairyring.model.train.state import Run, new_network, start_run

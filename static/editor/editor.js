@@ -4,28 +4,28 @@
  * @module
  */
 
-import { COMMANDS } from "./commands.js";
-import { ConflictCard } from "./conflict.js";
-import { Desk } from "./desk.js";
-import { Fitting } from "./fitting.js";
-import { Frame } from "./frame.js";
-import { keyList } from "./help.js";
-import { listenToKeys } from "./keyboard.js";
-import { noticesIn } from "./notices.js";
-import { listenToPanel, pressedButtons } from "./panel.js";
-import { Photos } from "./photos.js";
-import { Pointer } from "./pointer.js";
+import { COMMANDS } from "./state/commands.js";
+import { ConflictCard } from "./ui/conflict.js";
+import { Desk } from "./state/desk.js";
+import { Fitting } from "./sync/live_fit.js";
+import { Frame } from "./render/frame.js";
+import { keyList } from "./ui/help.js";
+import { listenToKeys } from "./input/keyboard.js";
+import { noticesIn } from "./ui/notices.js";
+import { listenToPanel, pressedButtons } from "./ui/panel.js";
+import { Photos } from "./render/photos.js";
+import { Pointer } from "./input/pointer.js";
 import { expose } from "./probe.js";
-import { statusIn } from "./status.js";
-import { Sync } from "./sync.js";
-import { openOutbox } from "./tabs.js";
-import { Toolbox } from "./toolbox.js";
-import { Transport } from "./transport.js";
+import { statusIn } from "./ui/status.js";
+import { Sync } from "./sync/sync.js";
+import { openOutbox } from "./sync/outbox_owner.js";
+import { Toolbox } from "./input/toolbox.js";
+import { Transport } from "./sync/transport.js";
 
-/** @typedef {import("./messages.js").FromServer} FromServer */
-/** @typedef {import("./messages.js").Layers} Layers */
-/** @typedef {import("./messages.js").Show} Show */
-/** @typedef {import("./messages.js").ToServer} ToServer */
+/** @typedef {import("./protocol.js").FromServer} FromServer */
+/** @typedef {import("./protocol.js").Layers} Layers */
+/** @typedef {import("./protocol.js").Show} Show */
+/** @typedef {import("./protocol.js").ToServer} ToServer */
 
 /** Close codes of the server. */
 const NO_NAME = 4401;
@@ -170,7 +170,7 @@ export class Editor {
     this.#send({ type: "open", image, select });
   }
 
-  /** @type {(clash: import("./sync.js").Clash) => void} */
+  /** @type {(clash: import("./sync/sync.js").Clash) => void} */
   #showClash(clash) {
     if (clash.image !== this.#desk.image?.id) this.#open(clash.image, clash.uid);
     else if (this.#desk.item(clash.uid)) {

@@ -4,9 +4,9 @@
  * @module
  */
 
-import { element } from "./dom.js";
+import { element } from "./ui/dom.js";
 import { Editor } from "./editor.js";
-import { createHost, hasWebGL, keepMounted } from "./stage.js";
+import { createHost, hasWebGL, keepMounted } from "./ui/viser_host.js";
 
 if (hasWebGL()) {
   const host = createHost();

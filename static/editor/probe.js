@@ -4,11 +4,11 @@
  * @module
  */
 
-import { isPrediction } from "./store.js";
-import { toImage, toScreen } from "./view.js";
+import { isPrediction } from "./state/store.js";
+import { toImage, toScreen } from "./geometry/view.js";
 
-/** @typedef {import("./desk.js").Desk} Desk */
-/** @typedef {import("./frame.js").Frame} Frame */
+/** @typedef {import("./state/desk.js").Desk} Desk */
+/** @typedef {import("./render/frame.js").Frame} Frame */
 
 /**
  * @param {HTMLElement} host

@@ -1,0 +1,1 @@
+"""Alembic's upgrades of the schema."""

@@ -9,9 +9,9 @@ from typing import Any
 import torch
 
 from fairyring.model.network.weights import load_weights
+from fairyring.model.train import log as train_log
 from fairyring.model.train.data import Example
 from fairyring.model.train.loop import FINAL, train
-from fairyring.model.train.loop import log as train_log
 from fairyring.model.train.recipe import Recipe
 from tests.support.discs import SHORT
 

@@ -1,6 +1,6 @@
 """Finds a Chromium to test and measure in, or installs one: one installed, else Debian's, else playwright's.
 
-``python -m fairyring.app.bench.browser.chromium`` prints its path, and fails with the remedy where there is none.
+``python -m fairyring.app.bench.browser.chromium`` prints its path, or fails with the remedy.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""One upgrade a module."""

@@ -29,7 +29,9 @@ def test_a_later_run_takes_the_place_of_an_earlier_one_and_of_its_selection(call
       desk.predict(a.after);
       return [desk.items.map(({{ uid }}) => uid), [...desk.selected]];
     """
-    items, selected = call("desk", body, {"before": [prediction(1)], "after": [prediction(7), prediction(8)]})
+    items, selected = call(
+        "state/desk", body, {"before": [prediction(1)], "after": [prediction(7), prediction(8)]}
+    )
     assert items == ["prediction:7", "prediction:8"]
     assert selected == []
 
@@ -43,5 +45,5 @@ def test_a_prediction_that_is_being_dragged_stays_until_it_is_let_go(call) -> No
       desk.settle();
       return committed.map(({{ after }}) => [after.cap.prediction, after.cap.visible[0][2]]);
     """
-    found = call("desk", body, {"before": [prediction(1), prediction(2)], "after": [prediction(7)]})
+    found = call("state/desk", body, {"before": [prediction(1), prediction(2)], "after": [prediction(7)]})
     assert found == [[1, 90]]

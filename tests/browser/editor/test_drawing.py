@@ -30,7 +30,7 @@ def test_a_sheet_is_on_the_screen_once_it_is_shown_and_keeps_what_was_drawn(call
       return [once, seen(5, 6, 12, 18), sheet.canvas.style.width, sheet.canvas.style.height];
     """
     )
-    assert call("sheet", body) == [[255, 0, 0, 0], [255, 0, 255, 0], "10px", "5px"]
+    assert call("render/bitmap_canvas", body) == [[255, 0, 0, 0], [255, 0, 255, 0], "10px", "5px"]
 
 
 def test_the_screen_keeps_the_old_sheet_until_the_new_one_is_shown(call) -> None:
@@ -46,7 +46,7 @@ def test_the_screen_keeps_the_old_sheet_until_the_new_one_is_shown(call) -> None
       return [before, seen(5)];
     """
     )
-    assert call("sheet", body) == [[255], [0]]
+    assert call("render/bitmap_canvas", body) == [[255], [0]]
 
 
 def test_a_picture_drawn_elsewhere_is_shown_and_can_be_drawn_on(call) -> None:
@@ -71,7 +71,7 @@ def test_a_picture_drawn_elsewhere_is_shown_and_can_be_drawn_on(call) -> None:
       return [shown, after, seen(5, 12)];
     """
     )
-    assert call("sheet", body) == [[255, 0], [255, 255], [255, 255]]
+    assert call("render/bitmap_canvas", body) == [[255, 0], [255, 255], [255, 255]]
 
 
 def test_a_glass_is_there_only_while_something_is_drawn_on_it(call) -> None:
@@ -87,7 +87,7 @@ def test_a_glass_is_there_only_while_something_is_drawn_on_it(call) -> None:
       const here = {x0: 10, y0: 10, x1: 50, y1: 50};
       return [turn(here, false), turn(here, true), turn(here, false), turn(here, true), turn(null, false)];
     """
-    assert call("glass", body) == [False, True, False, True, False]
+    assert call("render/small_canvas", body) == [False, True, False, True, False]
 
 
 POINTER = """
@@ -118,7 +118,7 @@ def test_a_drag_follows_the_pointer_before_the_frame_does_and_only_once(call) ->
       return dragged;
     """
     )
-    assert call("pointer", body) == [11, 12]
+    assert call("input/pointer", body) == [11, 12]
 
 
 def test_a_quick_mouse_is_followed_no_oftener_than_it_helps_but_to_where_it_ends(call) -> None:
@@ -133,4 +133,4 @@ def test_a_quick_mouse_is_followed_no_oftener_than_it_helps_but_to_where_it_ends
       return [dragged.length <= most + 1, dragged.at(-1)];
     """
     )
-    assert call("pointer", body) == [True, 199]
+    assert call("input/pointer", body) == [True, 199]

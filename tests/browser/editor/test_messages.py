@@ -13,7 +13,7 @@ from fairyring.app import protocol as messages
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage import records
 
-SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "messages.js").read_text(encoding="utf-8")
+SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "protocol.js").read_text(encoding="utf-8")
 STRUCTS = (
     records.Image,
     records.Cap,

@@ -12,13 +12,13 @@ def test_unsettled_edits_are_there_after_a_reload_in_their_order(call, page) -> 
       box.settle('e0');
       box.settle('e3');
     """
-    call("outbox", EDIT + fill)
+    call("sync/outbox", EDIT + fill)
     page.reload()
     body = """
       const box = new m.Outbox(localStorage, 'p:');
       return [box.edits().map(({id}) => id), box.head().edits[0].id, box.kept];
     """
-    ids, head, kept = call("outbox", body)
+    ids, head, kept = call("sync/outbox", body)
     assert ids == [f"e{i}" for i in range(12) if i not in (0, 3)]
     assert (head, kept) == ("e1", True)
 
@@ -30,10 +30,13 @@ def test_edits_added_after_a_reload_do_not_overwrite_older_ones(call, page) -> N
       box.add([edit('b')]);
       box.settle('a');
     """
-    call("outbox", EDIT + fill)
+    call("sync/outbox", EDIT + fill)
     page.reload()
-    call("outbox", EDIT + "new m.Outbox(localStorage, 'p:').add([edit('c')])")
-    assert call("outbox", "return new m.Outbox(localStorage, 'p:').edits().map(({id}) => id)") == ["b", "c"]
+    call("sync/outbox", EDIT + "new m.Outbox(localStorage, 'p:').add([edit('c')])")
+    assert call("sync/outbox", "return new m.Outbox(localStorage, 'p:').edits().map(({id}) => id)") == [
+        "b",
+        "c",
+    ]
 
 
 def test_settled_edits_leave_nothing_in_the_browser(call) -> None:
@@ -44,7 +47,7 @@ def test_settled_edits_leave_nothing_in_the_browser(call) -> None:
       box.settle('b');
       return [localStorage.length, box.waiting];
     """
-    assert call("outbox", EDIT + body) == [0, 0]
+    assert call("sync/outbox", EDIT + body) == [0, 0]
 
 
 def test_what_a_closed_tab_left_is_taken_over_once(call) -> None:
@@ -58,7 +61,7 @@ def test_what_a_closed_tab_left_is_taken_over_once(call) -> None:
       return [ids, m.keysWith(localStorage, 'p:old:'), new m.Outbox(localStorage, 'p:new:').edits().length];
     """
     )
-    assert call("outbox", body) == [["a"], [], 1]
+    assert call("sync/outbox", body) == [["a"], [], 1]
 
 
 def test_a_full_storage_is_admitted(call) -> None:
@@ -74,7 +77,7 @@ def test_a_full_storage_is_admitted(call) -> None:
       return [admitted, box.kept, box.waiting];
     """
     )
-    assert call("outbox", body) == [False, True, 0]
+    assert call("sync/outbox", body) == [False, True, 0]
 
 
 def test_spoilt_entries_are_passed_over(call) -> None:
@@ -83,7 +86,7 @@ def test_spoilt_entries_are_passed_over(call) -> None:
       localStorage.setItem('p:000000001', '7');
       return new m.Outbox(localStorage, 'p:').edits();
     """
-    assert call("outbox", body) == []
+    assert call("sync/outbox", body) == []
 
 
 def test_an_edit_held_for_a_person_stands_for_all_of_its_cap_and_is_not_sent(call) -> None:
@@ -97,12 +100,12 @@ def test_an_edit_held_for_a_person_stands_for_all_of_its_cap_and_is_not_sent(cal
       return [ids(box.edits()), ids(box.head().edits), box.waiting, box.holds('u'), box.holds('v')];
     """
     )
-    assert call("outbox", body) == [["b", "d"], ["b"], 1, True, False]
+    assert call("sync/outbox", body) == [["b", "d"], ["b"], 1, True, False]
 
 
 def test_two_tabs_keep_outboxes_of_their_own_and_a_third_takes_over_when_one_closes(page, static_url) -> None:
     use = """async (id) => {
-      const m = await import('/editor/tabs.js');
+      const m = await import('/editor/sync/outbox_owner.js');
       const box = await m.openOutbox('project');
       box.add([{id, annotation: id, image: 1, base: 0, cap: null}]);
       return box.edits().map((edit) => edit.id);

@@ -7,13 +7,13 @@ import pytest
 
 def test_every_key_runs_a_command_that_exists_and_no_key_runs_two(call) -> None:
     body = """
-      const {KEYS} = await import('/editor/keys.js');
+      const {KEYS} = await import('/editor/input/keys.js');
       const all = KEYS.flatMap(([, bindings]) => bindings);
       const keys = all.flatMap((binding) => binding.keys.map((key) => key.toLowerCase()));
       const missing = all.filter(({command}) => !(command in m.COMMANDS)).map(({command}) => command);
       return [missing, keys.filter((key, i) => keys.indexOf(key) !== i)];
     """
-    assert call("commands", body) == [[], []]
+    assert call("state/commands", body) == [[], []]
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_every_key_runs_a_command_that_exists_and_no_key_runs_two(call) -> None:
     ],
 )
 def test_a_chord_runs_its_command_on_any_layout(call, event: dict, command: str | None) -> None:
-    assert call("keys", "return m.commandOf(new KeyboardEvent('keydown', a))", event) == command
+    assert call("input/keys", "return m.commandOf(new KeyboardEvent('keydown', a))", event) == command
 
 
 @pytest.mark.parametrize(
@@ -47,12 +47,12 @@ def test_a_chord_runs_its_command_on_any_layout(call, event: dict, command: str 
     ],
 )
 def test_the_status_line_says_what_is_so(call, state: dict, text: str) -> None:
-    assert call("status", "return m.statusOf(a).text", state) == text
+    assert call("ui/status", "return m.statusOf(a).text", state) == text
 
 
 def test_the_status_line_never_says_saved_when_edits_could_not_be_kept(call) -> None:
     state = {"connection": "offline", "waiting": 2, "kept": False, "clashes": 0}
-    status = call("status", "return m.statusOf(a)", state)
+    status = call("ui/status", "return m.statusOf(a)", state)
     assert "not saved" in status["text"]
     assert status["tone"] == "bad"
 
@@ -68,7 +68,7 @@ def test_one_fit_is_asked_for_at_a_time_and_the_latest_wins(call) -> None:
       const second = refits.take({seq: 2});
       return [sent.map(({seq, cap}) => [seq, cap]), late, first.cap, second.cap];
     """
-    assert call("refits", body) == [[[1, "a"], [2, "c"]], None, "a", "c"]
+    assert call("sync/fit_requests", body) == [[[1, "a"], [2, "c"]], None, "a", "c"]
 
 
 def test_a_question_that_was_given_up_does_not_hold_up_the_next(call) -> None:
@@ -81,17 +81,17 @@ def test_a_question_that_was_given_up_does_not_hold_up_the_next(call) -> None:
       refits.ask(question('c'));
       return [sent.map(({seq, cap}) => [seq, cap]), refits.take({seq: 1}), refits.take({seq: 2}).cap];
     """
-    assert call("refits", body) == [[[1, "a"], [2, "c"]], None, "c"]
+    assert call("sync/fit_requests", body) == [[[1, "a"], [2, "c"]], None, "c"]
 
 
 def test_the_caption_gives_the_reason_and_how_well_the_centre_is_known(call) -> None:
     fits = [{"note": "regular", "centre_sd": [0.1234, 2]}, {"note": "the marked circle", "centre_sd": None}]
-    captions = call("caption", "return a.map(m.captionOf)", fits)
+    captions = call("ui/caption", "return a.map(m.captionOf)", fits)
     assert captions == ["regular · centre ± 0.12, 2.00 px", "the marked circle"]
 
 
 def test_arcs_of_all_kinds_differ_by_dash_alone(call) -> None:
-    dashes = call("palette", "return Object.values(m.ARCS).map(({dash}) => dash.join())")
+    dashes = call("render/palette", "return Object.values(m.ARCS).map(({dash}) => dash.join())")
     assert len(dashes) == len(set(dashes)) == 4
 
 
@@ -112,7 +112,7 @@ def test_an_arc_is_drawn_where_it_lies_in_the_colour_of_its_kind(call) -> None:
         {"kind": "border", "points": [10, 15]},
     ]
     where = [(30, 10), (30, 30), (30, 20)]
-    painted = call("arcs", DRAWN, {"draw": "drawArcs", "fit": {"arcs": arcs}, "where": where})
+    painted = call("render/arcs", DRAWN, {"draw": "drawArcs", "fit": {"arcs": arcs}, "where": where})
     assert painted == [[0x45, 0xC8, 0xFF, 255], [255, 255, 255, 255], [0, 0, 0, 0]]
 
 
@@ -123,7 +123,7 @@ def test_the_uncertainty_is_an_ellipse_of_one_standard_deviation_that_never_vani
     seen = [
         [
             pixel[3] > 100
-            for pixel in call("arcs", DRAWN, {"draw": "drawUncertainty", "fit": fit, "where": where})
+            for pixel in call("render/arcs", DRAWN, {"draw": "drawUncertainty", "fit": fit, "where": where})
         ]
         for fit in (wide, tiny)
     ]
@@ -164,7 +164,7 @@ def test_a_new_token_opens_a_connection_at_once_and_only_a_welcome_makes_it_onli
       return [early, late, sockets[0].sent.map(({type}) => type), states];
     """
     )
-    assert call("transport", body) == [False, True, ["hello", "saving"], ["online"]]
+    assert call("sync/transport", body) == [False, True, ["hello", "saving"], ["online"]]
 
 
 def test_a_broken_connection_is_tried_again_with_the_token_in_the_page(call) -> None:
@@ -180,7 +180,7 @@ def test_a_broken_connection_is_tried_again_with_the_token_in_the_page(call) -> 
       return [hello.token, states];
     """
     )
-    assert call("transport", body) == ["two", ["online", "offline", "online"]]
+    assert call("sync/transport", body) == ["two", ["online", "offline", "online"]]
 
 
 def test_a_browser_without_webgl_is_told_so_in_words(browser, static_url) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 WORLD = """
-  const {Store} = await import('/editor/store.js');
-  const {Outbox} = await import('/editor/outbox.js');
-  const {newCap} = await import('/editor/caps.js');
-  const {changed} = await import('/editor/shapes.js');
+  const {Store} = await import('/editor/state/store.js');
+  const {Outbox} = await import('/editor/sync/outbox.js');
+  const {newCap} = await import('/editor/geometry/caps.js');
+  const {changed} = await import('/editor/geometry/shapes.js');
 
   /** The journal as the server keeps it. */
   const journal = new Map(), seen = new Map();
@@ -89,7 +89,7 @@ def test_any_sequence_of_edits_undos_and_broken_connections_ends_with_both_sides
       return [sync.waiting, same(), Object.keys(here()).length, sync.clashes.length, wire.refused];
     """
     )
-    waiting, same, count, clashes, refused = call("sync", body, seed)
+    waiting, same, count, clashes, refused = call("sync/sync", body, seed)
     assert (waiting, same, clashes, refused) == (0, True, 0, [])
     assert count > 3
 
@@ -122,7 +122,7 @@ def test_undoing_everything_leads_back_and_redoing_everything_forth(call, seed: 
       return [wrong, dry, sync.redo(), same(), sync.clashes.length];
     """
     )
-    assert call("sync", body, seed) == [[], None, None, True, 0]
+    assert call("sync/sync", body, seed) == [[], None, None, True, 0]
 
 
 def test_an_edit_is_acknowledged_once_however_often_it_is_sent(call) -> None:
@@ -133,7 +133,7 @@ def test_an_edit_is_acknowledged_once_however_often_it_is_sent(call) -> None:
       return [journal.get('u').revision, sync.waiting, same()];
     """
     )
-    assert call("sync", body) == [1, 0, True]
+    assert call("sync/sync", body) == [1, 0, True]
 
 
 def test_a_lost_update_becomes_a_conflict_and_nothing_is_overwritten(call) -> None:
@@ -148,7 +148,7 @@ def test_a_lost_update_becomes_a_conflict_and_nothing_is_overwritten(call) -> No
       return [kept, clashes, store.get('u').cap.visible[0][0], sync.waiting];
     """
     )
-    assert call("sync", body) == [True, [["u", "Bob"]], 60, 0]
+    assert call("sync/sync", body) == [True, [["u", "Bob"]], 60, 0]
 
 
 @pytest.mark.parametrize(("whose", "x", "doubtful"), [("mine", 70, False), ("theirs", 1, True)])
@@ -164,7 +164,7 @@ def test_a_conflict_ends_with_the_side_that_was_chosen(call, whose: str, x: int,
       return [journal.get('u').cap.visible[0][0], journal.get('u').cap.doubtful, same(), sync.clashes.length];
     """
     )
-    assert call("sync", body, whose) == [x, doubtful, True, 0]
+    assert call("sync/sync", body, whose) == [x, doubtful, True, 0]
 
 
 def test_a_conflict_not_settled_comes_back_after_a_reload(call) -> None:
@@ -183,7 +183,7 @@ def test_a_conflict_not_settled_comes_back_after_a_reload(call) -> None:
       return [again.clashes.length, store.get('u').cap.visible[0][0], journal.get('u').cap.doubtful];
     """
     )
-    assert call("sync", body) == [1, 55, True]
+    assert call("sync/sync", body) == [1, 55, True]
 
 
 def test_a_refused_edit_gives_way_to_what_is_stored_and_says_why(call) -> None:
@@ -196,7 +196,7 @@ def test_a_refused_edit_gives_way_to_what_is_stored_and_says_why(call) -> None:
       return [store.get('u').cap.visible[0][0], sync.waiting, wire.refused, same()];
     """
     )
-    assert call("sync", body) == [1, 0, ["Too far out."], True]
+    assert call("sync/sync", body) == [1, 0, ["Too far out."], True]
 
 
 def test_undo_leaves_a_cap_alone_that_somebody_else_has_changed_since(call) -> None:
@@ -211,7 +211,7 @@ def test_undo_leaves_a_cap_alone_that_somebody_else_has_changed_since(call) -> N
       return [doubtful, visible[0][0], store.live().map(({uid}) => uid)];
     """
     )
-    assert call("sync", body) == [True, 50, ["u"]]
+    assert call("sync/sync", body) == [True, 50, ["u"]]
 
 
 def test_undoing_an_accepted_or_rejected_prediction_sets_the_prediction_free(call) -> None:
@@ -228,4 +228,4 @@ def test_undoing_an_accepted_or_rejected_prediction_sets_the_prediction_free(cal
       return [accepted, undone, rejected, claims()];
     """
     )
-    assert call("sync", body) == [[[7, False]], [[None, True]], [[7, True]], [[None, True]]]
+    assert call("sync/sync", body) == [[[7, False]], [[None, True]], [[7, True]], [[None, True]]]

@@ -15,8 +15,9 @@ from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.network.decode import DecodeConfig, Instances
 from fairyring.model.network.refine import Drawn
 from fairyring.model.network.weights import load_weights
+from fairyring.model.predict import tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
-from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor, _without_repeats, tiles  # pyright: ignore
+from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor, _without_repeats  # pyright: ignore
 from fairyring.model.train.data import read_rgb
 from tests.support.discs import DISCS, SIDE, photo_of
 from tests.support.small_networks import tiny

@@ -11,10 +11,10 @@ from msgspec.structs import replace
 
 from fairyring.model.network.lite0 import EfficientNetLite0, imagenet_weights
 from fairyring.model.network.weights import load_weights
+from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import CHECKPOINT
 from fairyring.model.train.data import DataError, Example
 from fairyring.model.train.loop import BEST, FINAL, RUN, TrainError, train
-from fairyring.model.train.loop import log as train_log
 from tests.support.discs import RECIPE, SHORT
 from tests.support.small_runs import CPU, logged, run
 from tests.unit.model.conftest import Learnt

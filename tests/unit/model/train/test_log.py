@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import pytest
 
-from fairyring.model.train.loop import log as train_log
+from fairyring.model.train import log as train_log
 
 
 def step(iteration: int) -> dict[str, float]:

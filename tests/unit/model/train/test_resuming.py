@@ -12,10 +12,10 @@ import pytest
 from msgspec.structs import replace
 
 from fairyring.model.network.weights import digest_of
+from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import CheckpointError, load_checkpoint
 from fairyring.model.train.data import Example
 from fairyring.model.train.loop import Progress, TrainError, train
-from fairyring.model.train.loop import log as train_log
 from tests.support.discs import SHORT
 from tests.support.small_runs import CPU, environment, logged, run
 

@@ -41,7 +41,7 @@ def test_an_import_that_is_cancelled_changes_nothing(project, tmp_path, write_co
 
 
 def test_photos_placed_before_a_commit_that_fails_are_removed(project, tmp_path, write_photo, monkeypatch):
-    from fairyring.storage.importing.run import photos as placing
+    from fairyring.storage.importing import photos as placing
 
     def fail(_path):
         raise OSError(28, "No space left on device")

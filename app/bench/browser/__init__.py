@@ -1,0 +1,1 @@
+"""Benchmarks in a real browser; these need playwright and a Chromium."""

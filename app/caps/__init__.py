@@ -1,0 +1,1 @@
+"""What is known of an image's caps: whole outlines, neighbours, comparison. No socket, no HTML."""

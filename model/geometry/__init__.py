@@ -1,0 +1,1 @@
+"""Shapes, masks and outlines; continuous coordinates throughout."""

@@ -1,0 +1,1 @@
+"""PR-SOLOv2: layers, losses, decoding."""

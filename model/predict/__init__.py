@@ -1,0 +1,1 @@
+"""From a photo to outlines: weights, tiles, overlap resolution, level lines."""

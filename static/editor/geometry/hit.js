@@ -1,0 +1,102 @@
+/**
+ * Which cap is under the pointer.
+ *
+ * @module
+ */
+
+import { axesOf, insideCap, measure, placedWhole, ringsOf } from "./caps.js";
+import { overlap } from "./view.js";
+import { isPrediction } from "../state/store.js";
+import { nearestEdges } from "./vertices.js";
+
+/** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {import("../state/store.js").Shape} Shape */
+/** @typedef {import("./view.js").Bounds} Bounds */
+
+/** A prediction this much smaller than an annotation around it is another cap, not the same one seen twice. */
+const ANOTHER_CAP = 1.6;
+
+/**
+ * The smallest cap the point lies in, as a nested one could not be reached otherwise; else the cap whose
+ * outline is nearest within `reach`. Where people have labelled a cap that is also predicted, theirs is meant.
+ *
+ * @param {Shape[]} shapes
+ * @param {Point} point
+ * @param {number} reach image pixels
+ * @returns {Shape | null}
+ */
+export function pick(shapes, point, reach) {
+  const inside = shapes.filter(({ cap }) => insideCap(cap, ...point));
+  if (inside.length) {
+    return inside.reduce((a, b) => (rank(b) < rank(a) ? b : a));
+  }
+  let best = reach;
+  let found = null;
+  for (const shape of shapes) {
+    const distance = distanceTo(shape, point, best);
+    if (distance > best) continue;
+    best = distance;
+    found = shape;
+  }
+  return found;
+}
+
+/** @type {(shape: Shape) => number} */
+function rank(shape) {
+  return measure(shape.cap).area * (isPrediction(shape) ? ANOTHER_CAP : 1);
+}
+
+/**
+ * Distance to what is drawn of the cap, or infinity when it is farther than `reach`.
+ *
+ * @param {Shape} shape
+ * @param {Point} point
+ * @param {number} reach
+ * @returns {number}
+ */
+function distanceTo({ cap }, point, reach) {
+  const { bounds } = measure(cap);
+  const [x, y] = point;
+  if (!bounds || !overlap(bounds, { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach }))
+    return Infinity;
+  const placed = placedWhole(cap);
+  let best = placed ? distanceToRim(placed, point) : Infinity;
+  if (ringsOf(cap).length) {
+    const edge = nearestEdges(cap, point, reach);
+    if (edge) best = Math.min(best, Math.hypot(edge.foot[0] - x, edge.foot[1] - y));
+  }
+  return best;
+}
+
+/**
+ * Exact for circles, close for the mild ellipses of caps.
+ *
+ * @type {(whole: import("../protocol.js").Whole, point: Point) => number}
+ */
+function distanceToRim(whole, [x, y]) {
+  const { a, b, angle } = axesOf(whole);
+  const dx = x - whole.cx;
+  const dy = y - whole.cy;
+  const u = dx * Math.cos(angle) + dy * Math.sin(angle);
+  const v = dy * Math.cos(angle) - dx * Math.sin(angle);
+  const distance = Math.hypot(u, v);
+  const direction = Math.atan2(v, u);
+  const rim = (a * b) / Math.hypot(b * Math.cos(direction), a * Math.sin(direction));
+  return Math.abs(distance - rim);
+}
+
+/**
+ * The caps that lie wholly in the rectangle.
+ *
+ * @param {Shape[]} shapes
+ * @param {Bounds} rect
+ * @returns {Shape[]}
+ */
+export function within(shapes, rect) {
+  return shapes.filter(({ cap }) => {
+    const { bounds } = measure(cap);
+    return (
+      bounds && bounds.x0 >= rect.x0 && bounds.y0 >= rect.y0 && bounds.x1 <= rect.x1 && bounds.y1 <= rect.y1
+    );
+  });
+}

@@ -1,0 +1,136 @@
+/**
+ * The pan and zoom transform: screen = image · scale + offset, screen in CSS pixels from the top left of
+ * the canvas. Views are plain values; every function returns a new one.
+ *
+ * @module
+ */
+
+/** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {{scale: number, x: number, y: number}} View */
+/** @typedef {{width: number, height: number}} Size */
+/** @typedef {{x0: number, y0: number, x1: number, y1: number}} Bounds */
+
+export const LARGEST_SCALE = 64;
+
+/** @type {(view: View, x: number, y: number) => Point} */
+export function toScreen(view, x, y) {
+  return [x * view.scale + view.x, y * view.scale + view.y];
+}
+
+/** @type {(view: View, x: number, y: number) => Point} */
+export function toImage(view, x, y) {
+  return [(x - view.x) / view.scale, (y - view.y) / view.scale];
+}
+
+/** @type {(view: View, dx: number, dy: number) => View} */
+export function panned(view, dx, dy) {
+  return { ...view, x: view.x + dx, y: view.y + dy };
+}
+
+/**
+ * Zooms by `factor`, keeping the image point under the screen point (x, y) where it is.
+ *
+ * @param {View} view
+ * @param {{x: number, y: number, factor: number, smallest: number}} how
+ * @returns {View}
+ */
+export function zoomed(view, { x, y, factor, smallest }) {
+  const scale = Math.min(LARGEST_SCALE, Math.max(smallest, view.scale * factor));
+  const ratio = scale / view.scale;
+  return { scale, x: x - (x - view.x) * ratio, y: y - (y - view.y) * ratio };
+}
+
+/**
+ * The view that shows all of `bounds` (image pixels), centred, `margin` CSS pixels from the edges.
+ *
+ * @param {Bounds} bounds
+ * @param {Size} size
+ * @param {number} margin
+ * @returns {View}
+ */
+export function fitted(bounds, size, margin) {
+  const width = Math.max(bounds.x1 - bounds.x0, 1e-6);
+  const height = Math.max(bounds.y1 - bounds.y0, 1e-6);
+  const room = {
+    width: Math.max(size.width - 2 * margin, 16),
+    height: Math.max(size.height - 2 * margin, 16),
+  };
+  const scale = Math.min(room.width / width, room.height / height, LARGEST_SCALE);
+  return {
+    scale,
+    x: (size.width - (bounds.x0 + bounds.x1) * scale) / 2,
+    y: (size.height - (bounds.y0 + bounds.y1) * scale) / 2,
+  };
+}
+
+/**
+ * Moves as little as possible so that `bounds` is on screen; zooms only where it does not fit or would be
+ * too small to work on.
+ *
+ * @param {View} view
+ * @param {Bounds} bounds
+ * @param {Size} size
+ * @returns {View}
+ */
+export function revealing(view, bounds, size) {
+  const margin = 40;
+  const width = (bounds.x1 - bounds.x0) * view.scale;
+  const height = (bounds.y1 - bounds.y0) * view.scale;
+  const fits = width <= size.width - 2 * margin && height <= size.height - 2 * margin;
+  if (!fits || Math.max(width, height) < 24) {
+    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
+    return fitted(grown(bounds, reach), size, margin);
+  }
+  const [left, top] = toScreen(view, bounds.x0, bounds.y0);
+  return panned(view, shift(left, width, size.width, margin), shift(top, height, size.height, margin));
+}
+
+/** @type {(start: number, length: number, room: number, margin: number) => number} */
+function shift(start, length, room, margin) {
+  if (start < margin) return margin - start;
+  return Math.min(0, room - margin - (start + length));
+}
+
+/** @type {(bounds: Bounds, by: number) => Bounds} */
+export function grown(bounds, by) {
+  return { x0: bounds.x0 - by, y0: bounds.y0 - by, x1: bounds.x1 + by, y1: bounds.y1 + by };
+}
+
+/** @type {(a: Bounds, b: Bounds) => Bounds} */
+export function joined(a, b) {
+  return {
+    x0: Math.min(a.x0, b.x0),
+    y0: Math.min(a.y0, b.y0),
+    x1: Math.max(a.x1, b.x1),
+    y1: Math.max(a.y1, b.y1),
+  };
+}
+
+/** @type {(a: Bounds, b: Bounds) => boolean} */
+export function overlap(a, b) {
+  return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+}
+
+/**
+ * The part of the image on screen.
+ *
+ * @param {View} view
+ * @param {Size} size
+ * @returns {Bounds}
+ */
+export function visibleBounds(view, size) {
+  const [x0, y0] = toImage(view, 0, 0);
+  const [x1, y1] = toImage(view, size.width, size.height);
+  return { x0, y0, x1, y1 };
+}
+
+/**
+ * Offsets on whole device pixels, so that moving a drawn picture of the shapes stays sharp.
+ *
+ * @param {View} view
+ * @param {number} ratio device pixels per CSS pixel
+ * @returns {View}
+ */
+export function onDevicePixels(view, ratio) {
+  return { ...view, x: Math.round(view.x * ratio) / ratio, y: Math.round(view.y * ratio) / ratio };
+}

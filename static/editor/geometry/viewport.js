@@ -1,0 +1,82 @@
+/**
+ * Where on the photo the annotator looks. Every image is found again as it was left.
+ *
+ * @module
+ */
+
+import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view.js";
+
+/** @typedef {import("../protocol.js").Image} Image */
+/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("./view.js").Size} Size */
+/** @typedef {import("./view.js").View} View */
+
+export class Lens {
+  /** @type {View} */
+  view = { scale: 1, x: 0, y: 0 };
+  /** Of the viewport, CSS pixels. @type {Size} */
+  size = { width: 0, height: 0 };
+  /** @type {Image | null} */
+  #image = null;
+  /** How images were left, by id. @type {Map<number, View>} */
+  #views = new Map();
+  #moved;
+
+  /** @param {() => void} moved  another part of the photo is to be seen */
+  constructor(moved) {
+    this.#moved = moved;
+  }
+
+  /** Turns to an image, which may be the same one anew. @type {(image: Image) => void} */
+  turnTo(image) {
+    const same = this.#image?.id === image.id;
+    if (this.#image && !same) this.#views.set(this.#image.id, this.view);
+    this.#image = image;
+    const known = this.#views.get(image.id);
+    if (!same && known) this.#look(known);
+    else if (!same) this.fit();
+  }
+
+  /** The viewport has another size; what was in its middle stays there. @type {(size: Size) => void} */
+  resize({ width, height }) {
+    const first = this.size.width === 0;
+    const [dx, dy] = [(width - this.size.width) / 2, (height - this.size.height) / 2];
+    this.size = { width, height };
+    if (first) this.fit();
+    else this.panBy(dx, dy);
+  }
+
+  /** @type {(view: View) => void} */
+  #look(view) {
+    this.view = onDevicePixels(view, window.devicePixelRatio);
+    this.#moved();
+  }
+
+  /** @type {(dx: number, dy: number) => void} */
+  panBy(dx, dy) {
+    this.#look(panned(this.view, dx, dy));
+  }
+
+  /** @type {(x: number, y: number, factor: number) => void} */
+  zoomAt(x, y, factor) {
+    this.#look(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
+  }
+
+  /** Shows the whole photo. */
+  fit() {
+    this.#look(this.#fittingView());
+  }
+
+  #fittingView() {
+    const { width, height } = this.#image ?? { width: 1, height: 1 };
+    return fitted({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
+  }
+
+  /** Brings a part of the photo into view. @type {(bounds: Bounds, how: {close: boolean}) => void} */
+  reveal(bounds, { close }) {
+    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
+    this.#look(
+      close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
+    );
+  }
+}

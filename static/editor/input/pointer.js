@@ -1,0 +1,152 @@
+/**
+ * Pointer and wheel: panning and zooming are the same with every tool, the rest is handed to the tool in
+ * hand.
+ *
+ * @module
+ */
+
+import { toImage } from "../geometry/view.js";
+
+/** @typedef {import("../state/desk.js").Desk} Desk */
+/** @typedef {import("../render/frame.js").Frame} Frame */
+/** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {import("./tools/tool.js").Press} Press */
+/** @typedef {import("./tools/tool.js").Tool} Tool */
+
+const WHEEL_SPEED = 0.0016;
+const LINE_PX = 16;
+/** Some mice tell where they are a thousand times a second. */
+const RAW_MS = 4;
+
+export class Pointer {
+  /** @type {Point} */
+  at = [0, 0];
+  /** Space is held: the primary button pans. */
+  panKey = false;
+  #panning = false;
+  #pressed = false;
+  #rawAt = 0;
+  #host;
+  #desk;
+  #frame;
+  #tool;
+
+  /**
+   * @param {HTMLElement} host
+   * @param {Desk} desk
+   * @param {Frame} frame
+   * @param {() => Tool} tool
+   */
+  constructor(host, desk, frame, tool) {
+    this.#host = host;
+    this.#desk = desk;
+    this.#frame = frame;
+    this.#tool = tool;
+    host.addEventListener("pointerdown", (event) => this.#down(event));
+    host.addEventListener("pointermove", (event) => this.#move(event));
+    host.addEventListener("pointerrawupdate", (event) => this.#raw(/** @type {PointerEvent} */ (event)));
+    host.addEventListener("pointerup", (event) => this.#up(event));
+    host.addEventListener("pointercancel", () => this.#cancel());
+    host.addEventListener("pointerleave", () => desk.hover(null));
+    host.addEventListener("dblclick", (event) => this.#tool().double?.(this.#press(event)));
+    host.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    host.addEventListener("contextmenu", (event) => event.preventDefault());
+  }
+
+  /** @type {(event: MouseEvent) => Press} */
+  #press(event) {
+    const box = this.#host.getBoundingClientRect();
+    this.at = [event.clientX - box.left, event.clientY - box.top];
+    const { shiftKey: shift, altKey: alt } = event;
+    return { screen: this.at, image: toImage(this.#desk.lens.view, ...this.at), shift, alt };
+  }
+
+  /** @type {(event: PointerEvent) => void} */
+  #down(event) {
+    if (event.target instanceof Element && event.target.closest("[data-fairyring-chrome]")) return;
+    this.#host.focus({ preventScroll: true });
+    this.#host.setPointerCapture(event.pointerId);
+    const press = this.#press(event);
+    if (event.button !== 0 || this.panKey) this.#panning = true;
+    else {
+      this.#pressed = true;
+      this.#tool().down(press);
+    }
+    event.preventDefault();
+    this.cursor();
+  }
+
+  /**
+   * A move before the browser holds it back until the next frame: so what is asked of the server is asked
+   * half a frame sooner. Not every browser tells.
+   *
+   * @type {(event: PointerEvent) => void}
+   */
+  #raw(event) {
+    if (!this.#pressed || this.#panning || event.timeStamp - this.#rawAt < RAW_MS) return;
+    this.#rawAt = event.timeStamp;
+    this.#drag(event);
+  }
+
+  /** @type {(event: PointerEvent) => void} */
+  #drag(event) {
+    const [x, y] = this.at;
+    const press = this.#press(event);
+    if (press.screen[0] === x && press.screen[1] === y) return;
+    this.#tool().drag(press);
+    this.#frame.blame(event.timeStamp, "drag");
+  }
+
+  /** @type {(event: PointerEvent) => void} */
+  #move(event) {
+    if (this.#pressed && !this.#panning) this.#drag(event);
+    else this.#wander(event);
+    this.cursor();
+  }
+
+  /** @type {(event: PointerEvent) => void} */
+  #wander(event) {
+    const [x, y] = this.at;
+    const press = this.#press(event);
+    if (this.#panning) {
+      this.#desk.lens.panBy(this.at[0] - x, this.at[1] - y);
+      this.#frame.blame(event.timeStamp, "pan");
+    } else {
+      this.#tool().hover(press);
+      this.#frame.blame(event.timeStamp, "hover");
+    }
+  }
+
+  /** @type {(event: PointerEvent) => void} */
+  #up(event) {
+    const press = this.#press(event);
+    if (this.#pressed && event.button === 0) {
+      this.#pressed = false;
+      this.#tool().up(press);
+      this.#frame.blame(event.timeStamp, "release");
+    }
+    if (event.buttons === 0) this.#panning = false;
+    this.cursor();
+  }
+
+  #cancel() {
+    if (this.#pressed) this.#tool().cancel();
+    this.#pressed = this.#panning = false;
+  }
+
+  /** @type {(event: WheelEvent) => void} */
+  #wheel(event) {
+    if (event.target instanceof Element && event.target.closest("[data-fairyring-chrome]")) return;
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
+    const speed = event.ctrlKey ? 6 * WHEEL_SPEED : WHEEL_SPEED;
+    this.#desk.lens.zoomAt(...this.at, Math.exp(-pixels * speed));
+    this.#frame.blame(event.timeStamp, "zoom");
+  }
+
+  /** Shows what a press would do. */
+  cursor() {
+    const cursor = this.#panning ? "grabbing" : this.panKey ? "grab" : this.#tool().cursor;
+    if (this.#host.style.cursor !== cursor) this.#host.style.cursor = cursor;
+  }
+}

@@ -1,0 +1,39 @@
+/**
+ * What every tool does with a pointer.
+ *
+ * @module
+ */
+
+/** @typedef {import("../../protocol.js").Point} Point */
+
+/**
+ * @typedef {Object} Press
+ * @property {Point} screen CSS pixels from the top left of the canvas
+ * @property {Point} image
+ * @property {boolean} shift
+ * @property {boolean} alt
+ */
+
+/**
+ * @typedef {Object} Tool
+ * @property {string} name
+ * @property {string} cursor
+ * @property {(press: Press) => void} hover
+ * @property {(press: Press) => void} down
+ * @property {(press: Press) => void} drag
+ * @property {(press: Press) => void} up
+ * @property {(press: Press) => void} [double]
+ * @property {() => boolean} cancel  drops what is half done; false when there was nothing
+ * @property {() => boolean} [finish]  Enter
+ * @property {() => boolean} [back]  Backspace or Delete
+ * @property {import("../../render/overlay.js").Sketch} [sketch]
+ */
+
+export const GRAB_PX = 9;
+export const EDGE_PX = 6;
+export const CLICK_PX = 4;
+
+/** @type {(a: Point, b: Point) => number} */
+export function apart(a, b) {
+  return Math.hypot(a[0] - b[0], a[1] - b[1]);
+}

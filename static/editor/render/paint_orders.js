@@ -1,0 +1,43 @@
+/**
+ * Orders pictures of the caps from the painting worker.
+ *
+ * @module
+ */
+
+/** @typedef {import("./paint.js").Picture} Picture */
+/** @typedef {import("./paint_worker.js").Order} Order */
+/** @typedef {import("../state/store.js").Shape} Shape */
+/** @typedef {import("./surface.js").Frame} Frame */
+
+export class Studio {
+  #worker = new Worker(new URL("./paint_worker.js", import.meta.url), { type: "module" });
+  /** What the worker has. @type {Map<string, Shape>} */
+  #sent = new Map();
+  /** @type {Map<number, (bitmap: ImageBitmap) => void>} */
+  #orders = new Map();
+  #next = 0;
+
+  constructor() {
+    this.#worker.addEventListener("message", ({ data }) => {
+      this.#orders.get(data.id)?.(data.bitmap);
+      this.#orders.delete(data.id);
+    });
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {Picture & {lifted: Set<string>}} picture  with every shape, lifted ones too
+   * @returns {Promise<ImageBitmap>}
+   */
+  order(frame, { shapes, visible, selected, lifted }) {
+    const id = this.#next++;
+    const fresh = shapes.filter((shape) => this.#sent.get(shape.uid) !== shape);
+    const now = new Map(shapes.map((shape) => [shape.uid, shape]));
+    const gone = [...this.#sent.keys()].filter((uid) => !now.has(uid));
+    this.#sent = now;
+    /** @type {Order} */
+    const order = { id, ...frame, fresh, gone, visible, lifted: [...lifted], selected: [...selected] };
+    this.#worker.postMessage(order);
+    return new Promise((resolve) => this.#orders.set(id, resolve));
+  }
+}

@@ -1,0 +1,40 @@
+/**
+ * Colours that stay apart for colour-blind eyes and stand out on white caps and on dark soil: bright
+ * lines over a dark casing.
+ *
+ * @module
+ */
+
+export const CASING = "rgba(8, 12, 20, 0.6)";
+export const SHADE = "rgba(8, 12, 20, 0.85)";
+
+export const COLOURS = {
+  outline: "#45c8ff",
+  selected: "#ffffff",
+  whole: "#ffb000",
+  mark: "#ff6fb5",
+  prediction: "#d3c6ff",
+  ignored: "#9aa3ad",
+  theirs: "#ff8a3d",
+  draft: "#ffffff",
+};
+
+/**
+ * What an arc of the selected outline is called and how it is drawn; the dash alone tells them apart.
+ *
+ * @type {Record<import("../protocol.js").Arc["kind"], {name: string, colour: string, dash: number[]}>}
+ */
+export const ARCS = {
+  visible: { name: "rim", colour: "#45c8ff", dash: [] },
+  hidden: { name: "behind a neighbour", colour: "#ff7a45", dash: [9, 6] },
+  border: { name: "image border", colour: "#ffffff", dash: [14, 5, 1, 5] },
+  concave: { name: "hollow", colour: "#f6f04e", dash: [1, 6] },
+};
+
+export const FILLS = {
+  outline: "rgba(69, 200, 255, 0.17)",
+  selected: "rgba(69, 200, 255, 0.12)",
+  prediction: "rgba(201, 184, 255, 0.16)",
+  ignored: "rgba(196, 202, 210, 0.6)",
+  mark: "rgba(255, 111, 181, 0.14)",
+};

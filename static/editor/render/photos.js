@@ -1,0 +1,123 @@
+/**
+ * Photos as bitmaps, decoded off the main thread: a smaller one of a big photo first, the full one when
+ * somebody zooms in, and the next image's before anybody asks.
+ *
+ * @module
+ */
+
+/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/view.js").Size} Size */
+/** @typedef {import("../geometry/view.js").View} View */
+
+const SMALL_WIDTH = 2000;
+const KEPT = 6;
+const PIXELATED_FROM = 12;
+
+export class Photos {
+  /** @type {Map<string, Promise<ImageBitmap>>} */
+  #bitmaps = new Map();
+  #url = "";
+  /** @type {Size} */
+  #size = { width: 0, height: 0 };
+  /** @type {ImageBitmap | null} */
+  #bitmap = null;
+  #full = false;
+  #changed;
+
+  /** @param {() => void} changed  a better bitmap of the photo on screen has come */
+  constructor(changed) {
+    this.#changed = changed;
+  }
+
+  /**
+   * Makes this the photo on screen.
+   *
+   * @param {string} url
+   * @param {Size} size
+   * @returns {Promise<void>} when it can be drawn
+   */
+  async open(url, size) {
+    if (url === this.#url && this.#bitmap) return;
+    this.#url = url;
+    this.#size = size;
+    this.#bitmap = null;
+    const bitmap = await this.#fetch(smaller(url));
+    if (this.#url !== url || this.#bitmap) return;
+    this.#bitmap = bitmap;
+    this.#full = bitmap.width >= size.width;
+    this.#changed();
+  }
+
+  /** @type {(urls: string[]) => void} */
+  prefetch(urls) {
+    for (const url of urls) void this.#fetch(smaller(url)).catch(() => {});
+  }
+
+  /**
+   * @param {import("./paths.js").Context} context
+   * @param {View} view
+   * @param {Bounds} region
+   */
+  paint(context, view, region) {
+    const bitmap = this.#bitmap;
+    if (!bitmap) return;
+    this.#sharpen(view.scale * context.getTransform().a);
+    const { width, height } = this.#size;
+    const x0 = Math.max(0, Math.floor(region.x0));
+    const y0 = Math.max(0, Math.floor(region.y0));
+    const x1 = Math.min(width, Math.ceil(region.x1));
+    const y1 = Math.min(height, Math.ceil(region.y1));
+    if (x1 <= x0 || y1 <= y0) return;
+    const [kx, ky] = [bitmap.width / width, bitmap.height / height];
+    context.imageSmoothingEnabled = view.scale < PIXELATED_FROM;
+    context.drawImage(
+      bitmap,
+      x0 * kx,
+      y0 * ky,
+      (x1 - x0) * kx,
+      (y1 - y0) * ky,
+      x0 * view.scale + view.x,
+      y0 * view.scale + view.y,
+      (x1 - x0) * view.scale,
+      (y1 - y0) * view.scale,
+    );
+  }
+
+  /** @type {(scale: number) => void} */
+  #sharpen(scale) {
+    if (this.#full || scale * this.#size.width <= SMALL_WIDTH * 1.2) return;
+    this.#full = true;
+    const url = this.#url;
+    void this.#fetch(url).then((bitmap) => {
+      if (this.#url !== url) return;
+      this.#bitmap = bitmap;
+      this.#changed();
+    });
+  }
+
+  /** @type {(url: string) => Promise<ImageBitmap>} */
+  #fetch(url) {
+    const known = this.#bitmaps.get(url);
+    const bitmap = known ?? decoded(url);
+    this.#bitmaps.delete(url);
+    this.#bitmaps.set(url, bitmap);
+    bitmap.catch(() => this.#bitmaps.delete(url));
+    for (const old of this.#bitmaps.keys()) {
+      if (this.#bitmaps.size <= KEPT) break;
+      this.#bitmaps.delete(old);
+    }
+    return bitmap;
+  }
+}
+
+/** @type {(url: string) => Promise<ImageBitmap>} */
+async function decoded(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`The photo could not be loaded (${response.status}).`);
+  return createImageBitmap(await response.blob());
+}
+
+/** The photo scaled down to 2000 pixels; a smaller one comes as it is. @type {(url: string) => string} */
+function smaller(url) {
+  return `${url}${url.includes("?") ? "&" : "?"}w=${SMALL_WIDTH}`;
+}

@@ -1,0 +1,51 @@
+import { element } from "./dom.js";
+import { ARCS } from "../render/palette.js";
+
+/** @typedef {import("../protocol.js").Arc} Arc */
+/** @typedef {import("../protocol.js").Fit} Fit */
+
+const KINDS = /** @type {Arc["kind"][]} */ (Object.keys(ARCS));
+
+/**
+ * The lines that say how the outline of the selected cap came about, and what its arcs are.
+ *
+ * @param {HTMLElement} host
+ * @returns {(fit: Fit | null) => void}
+ */
+export function captionIn(host) {
+  const reason = document.createTextNode("");
+  const key = element("span", { class: "fairyring-key" });
+  const caption = element("div", { class: "fairyring-caption" }, element("span", {}, reason), key);
+  caption.dataset.fairyringChrome = "";
+  caption.hidden = true;
+  host.append(caption);
+  let named = "";
+  return (fit) => {
+    caption.hidden = !fit?.note;
+    if (!fit) return;
+    const text = captionOf(fit);
+    if (reason.data !== text) reason.data = text;
+    const kinds = KINDS.filter((kind) => fit.arcs.some((arc) => arc.kind === kind));
+    if (kinds.join() === named) return;
+    named = kinds.join();
+    key.replaceChildren(...kinds.map(sampleOf));
+  };
+}
+
+/** @type {(fit: Pick<Fit, "note" | "centre_sd">) => string} */
+export function captionOf({ note, centre_sd }) {
+  if (!centre_sd) return note;
+  const [sx, sy] = centre_sd.map((sd) => sd.toFixed(2));
+  return `${note} · centre ± ${sx}, ${sy} px`;
+}
+
+/** The name of a kind of arc after a piece of its line. @type {(kind: Arc["kind"]) => HTMLElement} */
+function sampleOf(kind) {
+  const { name, colour, dash } = ARCS[kind];
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  line.setAttribute("viewBox", "0 0 36 6");
+  line.innerHTML = '<path d="M2 3h32" fill="none" stroke-width="3" stroke-linecap="round" />';
+  line.firstElementChild?.setAttribute("stroke", colour);
+  line.firstElementChild?.setAttribute("stroke-dasharray", dash.join(" "));
+  return element("span", {}, line, document.createTextNode(name));
+}

@@ -1,0 +1,1 @@
+"""Taking photos and labels in."""
