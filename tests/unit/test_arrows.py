@@ -13,8 +13,7 @@ ALLOWED = {
     "app": ("fairyring.app", "fairyring.storage", "fairyring.model"),
     "storage": (
         "fairyring.storage",
-        "fairyring.model.geometry.shapes.shapes",
-        "fairyring.model.geometry.shapes.raster",
+        "fairyring.model.geometry",
         "fairyring.model.photo",
         "fairyring.model.errors",
     ),
