@@ -1,4 +1,4 @@
 """Benchmarks anybody can run again: ``fairyring bench``.
 
-Those of the editor and the store need playwright and a Chromium.
+Those of the editor and the store drive a Chromium and need the extra ``bench``.
 """

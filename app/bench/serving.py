@@ -38,7 +38,7 @@ class Server:
 
     def start(self) -> None:
         """Starts it and waits until it answers; ConnectionError if it does not."""
-        command = [sys.executable, "-c", "from app.cli import main; main()"]
+        command = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
         self.process = subprocess.Popen([*command, "serve", str(self.project), "--port", str(self.port)])
         deadline = time.monotonic() + START_S
         while not self._answers():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -10,6 +12,7 @@ import typer
 from fairyring.app.commands import bench_network
 from fairyring.app.commands.contour import MethodName
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.model.errors import FairyringError
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -18,6 +21,8 @@ commands = typer.Typer(
 )
 
 commands.add_typer(bench_network.commands, name="network")
+
+BROWSER_MISSING = """This is measured in a browser, which playwright drives: pip install 'fairyring[bench]'"""
 
 Quick = Annotated[bool, typer.Option(help="A small run, to see that it works.")]
 
@@ -28,7 +33,8 @@ def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
     Example: `fairyring bench store --json`
     """
-    from fairyring.app.bench import store as bench
+    with driving_a_browser():
+        from fairyring.app.bench import store as bench
 
     print_rows("store", bench.run(quick=quick), as_json=as_json)
 
@@ -39,7 +45,8 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
     Example: `fairyring bench editor --json`
     """
-    from fairyring.app.bench.browser import editor as bench
+    with driving_a_browser():
+        from fairyring.app.bench.browser import editor as bench
 
     print_rows("editor", bench.run(quick=quick), as_json=as_json)
 
@@ -95,3 +102,14 @@ def contour(
     if pictures is not None and real is not None:
         draw_worst(real, pictures, methods=[each.value for each in method or [MethodName.map]])
     print_rows("contour", bench.run(quick=quick, real=real), as_json=as_json)
+
+
+@contextmanager
+def driving_a_browser() -> Iterator[None]:
+    """Around imports that need the extra ``bench``. Raises FairyringError where it is not installed."""
+    try:
+        yield
+    except ModuleNotFoundError as missing:
+        if (missing.name or "").split(".")[0] != "playwright":
+            raise
+        raise FairyringError(BROWSER_MISSING) from None

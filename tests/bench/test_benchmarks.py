@@ -48,7 +48,7 @@ def test_a_figure_without_a_reference_has_no_ratio():
 def test_help_imports_nothing_heavy():
     script = (
         "import sys; sys.argv = ['fairyring', '--help']\n"
-        "from app.cli import main\n"
+        "from fairyring.app.cli import main\n"
         "try: main()\n"
         "except SystemExit: sys.stderr.write(' '.join({name.split('.')[0] for name in sys.modules}))"
     )
@@ -56,6 +56,20 @@ def test_help_imports_nothing_heavy():
 
     assert "Usage" in done.stdout
     assert HEAVY & set(done.stderr.split()) == set()
+
+
+@pytest.mark.parametrize("name", ["editor", "store"])
+def test_without_playwright_a_benchmark_in_a_browser_says_what_to_type(name):
+    script = (
+        f"import sys; sys.argv = ['fairyring', 'bench', '{name}']; sys.modules['playwright'] = None\n"
+        "from fairyring.app.cli import main; main()"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+
+    assert done.returncode == 1
+    assert done.stderr.splitlines() == [
+        "fairyring: This is measured in a browser, which playwright drives: pip install 'fairyring[bench]'"
+    ]
 
 
 def test_the_contour_benchmark_can_be_called_by_name():

@@ -1,52 +1,52 @@
-"""The wheel, built and installed into an environment of its own, away from the checkout."""
+"""The wheel holds what the checkout holds, as one package, and nothing else."""
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
-import venv
+import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
 
 TOP = Path(__file__).parents[2]
+ROOMS = ("app", "model", "storage", "static")
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("wheel")
-    subprocess.run(
-        [sys.executable, "-m", "build", "--wheel", "--outdir", out, TOP], check=True, capture_output=True
-    )
-    return next(out.glob("*.whl"))
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A clean copy: setuptools leaves ``build/`` where it builds, and takes from it what is gone since."""
+    copy = tmp_path_factory.mktemp("copy")
+    for room in ROOMS:
+        shutil.copytree(TOP / room, copy / room, ignore=shutil.ignore_patterns("__pycache__"))
+    for file in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(TOP / file, copy)
+    return copy
 
 
-def test_the_wheel_carries_the_editor_the_weights_and_the_migrations(wheel: Path) -> None:
-    names = set(zipfile.ZipFile(wheel).namelist())
-    assert "fairyring/static/editor/main.js" in names
-    assert {f"fairyring/model/weights/{file.name}" for file in (TOP / "model" / "weights").iterdir()} <= names
-    assert any(name.startswith("fairyring/storage/migrations/versions/") for name in names)
-    assert not any(name.startswith(("app/", "model/", "storage/", "static/", "tests/")) for name in names)
+@pytest.fixture(scope="module")
+def names(copy: Path) -> set[str]:
+    """Of the files in the wheel."""
+    wheel = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--wheel-dir", copy / "wheel", copy]
+    subprocess.run(wheel, check=True, capture_output=True)
+    return set(zipfile.ZipFile(next((copy / "wheel").glob("*.whl"))).namelist())
 
 
-def test_the_installed_wheel_makes_imports_and_exports_a_project(wheel: Path, tmp_path: Path) -> None:
-    venv.create(tmp_path / "env", with_pip=True)
-    python = tmp_path / "env" / "bin" / "python"
-    # A path file lends this environment's dependencies: only Fairyring itself is installed afresh.
-    here = next(p for p in sys.path if p.endswith("site-packages"))
-    there = next((tmp_path / "env" / "lib").glob("python*/site-packages"))
-    (there / "dependencies.pth").write_text(f"import sys; sys.path.append({here!r})\n")
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-deps", wheel], check=True, cwd=tmp_path)
+def test_the_wheel_holds_every_file_of_the_rooms_and_only_those(copy: Path, names: set[str]) -> None:
+    files = [file for room in ROOMS for file in (copy / room).rglob("*") if file.is_file()]
+    ours = {name for name in names if not name.split("/")[0].endswith(".dist-info")}
+    assert ours == {f"fairyring/{file.relative_to(copy).as_posix()}" for file in files}
 
-    def fairyring(*words: str) -> subprocess.CompletedProcess[str]:
-        command = [tmp_path / "env" / "bin" / "fairyring", *words]
-        return subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True)
 
-    where = subprocess.check_output(
-        [python, "-c", "import fairyring.app; print(fairyring.app.__file__)"], cwd=tmp_path, text=True
-    )
-    assert str(tmp_path) in where
-    fairyring("demo", "beds", "--count", "1")
-    fairyring("export", "beds", "out", "--only", "predicted")
-    assert (tmp_path / "out" / "instances.json").exists()
+def test_the_packages_named_are_the_folders_that_hold_modules(copy: Path) -> None:
+    named = tomllib.loads((copy / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
+    holding = {file.parent.relative_to(copy) for room in ROOMS for file in (copy / room).rglob("*.py")}
+    assert set(named) == {".".join(("fairyring", *folder.parts)) for folder in holding | {Path("static")}}
+    assert len(named) == len(set(named))
+
+
+def test_the_licence_and_the_command_come_with_it(names: set[str]) -> None:
+    in_metadata = {name.partition(".dist-info/")[2] for name in names if ".dist-info/" in name}
+    assert {"licenses/LICENSE", "entry_points.txt"} <= in_metadata

@@ -1,1 +1,1 @@
-"""Benchmarks in a real browser; these need playwright and a Chromium."""
+"""Benchmarks in a real browser, a Chromium that playwright drives (the extra ``bench``)."""

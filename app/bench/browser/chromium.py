@@ -35,7 +35,7 @@ FLAGS = (
 
 REMEDY = (
     "No Chromium was found and none could be installed. Install Chromium or Chrome, "
-    "or point FAIRYRING_CHROMIUM at one, and run make test again."
+    "or point FAIRYRING_CHROMIUM at one, and try again."
 )
 
 

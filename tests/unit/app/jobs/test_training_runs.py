@@ -56,7 +56,8 @@ def test_a_training_that_is_terminated_keeps_what_it_has_and_says_how_to_go_on(
 ) -> None:
     recipe.write_text(RECIPE.replace("iterations = 3", "iterations = 5000"))
     out = tmp_path / "run"
-    command = [sys.executable, "-c", "from app.cli import main; main()", "train", str(labelled.folder)]
+    fairyring = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
+    command = [*fairyring, "train", str(labelled.folder)]
     options = ["--out", str(out), "--config", str(recipe), "--device", "cpu", "--workers", "1"]
     running = subprocess.Popen(
         [*command, *options], stderr=subprocess.PIPE, text=True, start_new_session=True
