@@ -9,7 +9,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from fairyring.storage.records import Annotation, Cap, Document, Edit, Outcome, Prediction, Shape, Status
+from fairyring.storage.records import Annotation, Cap, Edit, ImageContents, Outcome, Prediction, Shape, Status
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
@@ -96,12 +96,12 @@ class Welcome(FromServer, frozen=True, tag="welcome"):
 class Show(FromServer, frozen=True, tag="show"):
     """Show this image."""
 
-    document: Document
+    contents: ImageContents
     photo: str
     """URL of the photo."""
     select: str | None = None
     position: int = 0
-    """Place in the list as filtered, from 0."""
+    """In the list as filtered, from 0."""
     count: int = 0
     ahead: list[str] = field(default_factory=list)
     """URLs of the photos likely to be shown next, fetched in advance."""

@@ -19,7 +19,7 @@ class Comparison(Struct, frozen=True, kw_only=True):
     image: int
     run: int
     version: int
-    """``documents.load_version`` from before the caps were loaded; a later edit makes this stale."""
+    """``contents.load_version`` from before the caps were loaded; a later edit makes this stale."""
     caps: int
     marked: int
     """Caps whose mark gives a true centre."""

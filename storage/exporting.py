@@ -15,9 +15,9 @@ from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
 from fairyring.model.photo import probe, read
+from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
-from fairyring.storage.documents import load_annotations, load_document, load_predictions
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco_writing import (
     annotation_entry,
@@ -129,8 +129,8 @@ def _loader(connection: Connection, only: Only) -> Callable[[Image], list[Any]]:
         return lambda image: load_annotations(connection, image.id)
 
     def load(image: Image) -> list[Any]:
-        document = load_document(connection, image.id)
-        return document.annotations if document.annotations or image.status != "new" else document.predictions
+        contents = load_contents(connection, image.id)
+        return contents.annotations if contents.annotations or image.status != "new" else contents.predictions
 
     return load
 

@@ -1,4 +1,4 @@
-"""The list of images: filtered, sorted, a page at a time, and the place of one image in it."""
+"""The list of images: filtered, sorted, a page at a time, and the position of one image in it."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class ImagePage(Struct, frozen=True, kw_only=True):
     total: int
 
 
-class Place(Struct, frozen=True, kw_only=True):
+class ListPosition(Struct, frozen=True, kw_only=True):
     """Where an image stands in the list. One that the filter leaves out stands where it would be."""
 
     position: int
@@ -91,7 +91,7 @@ def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
     return list(connection.execute(_ordered(which, _condition(which))).scalars())
 
 
-def place_in_list(connection: Connection, which: ImageFilter, image_id: int) -> Place:
+def position_in_list(connection: Connection, which: ImageFilter, image_id: int) -> ListPosition:
     """Where the image stands, and its neighbours.
 
     Raises:
@@ -102,7 +102,7 @@ def place_in_list(connection: Connection, which: ImageFilter, image_id: int) -> 
     ids = list(connection.execute(_ordered(which, or_(condition, image.c.id == image_id))).scalars())
     position = ids.index(image_id)
     found = connection.execute(select(image.c.id).where(image.c.id == image_id, condition)).first()
-    return Place(
+    return ListPosition(
         position=position,
         count=len(ids) if found else len(ids) - 1,
         previous=ids[position - 1] if position else None,

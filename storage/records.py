@@ -135,7 +135,7 @@ class Refused(Struct, frozen=True, kw_only=True, tag="refused", tag_field="outco
 Outcome = Accepted | Conflict | Refused
 
 
-class Document(Struct, frozen=True, kw_only=True):
+class ImageContents(Struct, frozen=True, kw_only=True):
     """Everything the editor shows of one image."""
 
     image: Image

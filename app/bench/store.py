@@ -22,12 +22,12 @@ from fairyring.app.bench.projects import Bed, write_labels
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
 from fairyring.app.live.editing import derive_edits
-from fairyring.storage.documents import load_document
+from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import commit
 from fairyring.storage.project import DATABASE, Project, create_project
-from fairyring.storage.records import Cap, Document, Edit
+from fairyring.storage.records import Cap, Edit, ImageContents
 
 
 def run(*, quick: bool = False) -> list[Row]:
@@ -37,11 +37,11 @@ def run(*, quick: bool = False) -> list[Row]:
         labels = write_labels(Path(folder) / "photos", _beds(count))
         with create_project(Path(folder) / "project") as project:
             rows = [_import(project, labels)]
-            documents = _documents(project, count)
+            opened = _contents(project, count)
             rows += [
                 _list(project, count),
-                _open(project, [document.image.id for document in documents]),
-                _edit(project, documents, Path(folder)),
+                _open(project, [contents.image.id for contents in opened]),
+                _edit(project, opened, Path(folder)),
             ]
         return rows + _leaf_through(Path(folder) / "project", leafed)
 
@@ -69,10 +69,10 @@ def _import(project: Project, labels: Path) -> Row:
     )
 
 
-def _documents(project: Project, count: int) -> list[Document]:
+def _contents(project: Project, count: int) -> list[ImageContents]:
     ids = np.random.default_rng(1).choice(np.arange(1, count + 1), size=100, replace=False)
     with project.read() as connection:
-        return [load_document(connection, int(image_id)) for image_id in ids]
+        return [load_contents(connection, int(image_id)) for image_id in ids]
 
 
 def _list(project: Project, count: int) -> Row:
@@ -103,7 +103,7 @@ def _list(project: Project, count: int) -> Row:
 def _open(project: Project, ids: list[int]) -> Row:
     def open_image(image_id: int) -> None:
         with project.read() as connection:
-            load_document(connection, image_id)
+            load_contents(connection, image_id)
 
     with sqlite3.connect(project.folder / DATABASE) as plain:
         query = "SELECT * FROM annotation WHERE image = ? AND deleted = 0"
@@ -112,8 +112,8 @@ def _open(project: Project, ids: list[int]) -> Row:
     return p95_row("open an image (reference: bare SELECT)", taken, target=50, reference=reference)
 
 
-def _edit(project: Project, documents: list[Document], folder: Path) -> Row:
-    edits = [_moved(document) for document in documents]
+def _edit(project: Project, opened: list[ImageContents], folder: Path) -> Row:
+    edits = [_moved(contents) for contents in opened]
 
     def save(edit: Edit) -> None:
         commit(project, derive_edits(project, [edit]), user="bench")
@@ -134,13 +134,13 @@ def _leaf_through(project: Path, count: int) -> list[Row]:
     return [p95_row("next image, 320 × 240", waited, target=100), memory]
 
 
-def _moved(document: Document) -> Edit:
-    annotation = document.annotations[0]
+def _moved(contents: ImageContents) -> Edit:
+    annotation = contents.annotations[0]
     visible = [[value + 0.25 for value in part] for part in annotation.cap.visible]
     return Edit(
         id=uuid.uuid4().hex,
         annotation=annotation.uid,
-        image=document.image.id,
+        image=contents.image.id,
         base=annotation.revision,
         cap=Cap(visible=visible),
     )

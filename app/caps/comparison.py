@@ -19,7 +19,7 @@ from fairyring.model.evaluate.pages import CapRecord
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import diameter_of_shape
 from fairyring.storage.comparisons import Comparison, stale_images, store_comparison
-from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_version
+from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_version
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
@@ -56,13 +56,13 @@ def compare_image(project: Project, image_id: int) -> Comparison | None:
     """Computes and stores the figures of one image; None where no run has seen it."""
     with project.read() as connection:
         version = load_version(connection, image_id)
-        document = load_document(connection, image_id)
+        contents = load_contents(connection, image_id)
         annotations = load_annotations(connection, image_id)
         predictions = load_predictions(connection, image_id)
-    if document.run is None:
+    if contents.run is None:
         return None
-    found = compare(document.image, annotations, predictions)
-    figures = _figures(document.run.id, version, document.image, annotations, found)
+    found = compare(contents.image, annotations, predictions)
+    figures = _figures(contents.run.id, version, contents.image, annotations, found)
     project.write(lambda connection: store_comparison(connection, figures))
     return figures
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from fairyring.app.caps.nearby import NOWHERE, Boxes, around
 from fairyring.model.geometry.shapes import polygon_of_shape
-from fairyring.storage.records import Annotation, Document, Image, Outline, Prediction
+from fairyring.storage.records import Annotation, Image, ImageContents, Outline, Prediction
 
 
 @dataclass(frozen=True)
@@ -48,10 +48,10 @@ class Scene:
         return [self.visible[keys[place]] for place in touching if keys[place] not in own]
 
 
-def scene_of(document: Document) -> Scene:
+def scene_of(contents: ImageContents) -> Scene:
     """The scene as the store knows it."""
-    annotations = {annotation.uid: annotation for annotation in document.annotations}
-    return Scene(document.image, annotations, document.predictions)
+    annotations = {annotation.uid: annotation for annotation in contents.annotations}
+    return Scene(contents.image, annotations, contents.predictions)
 
 
 def key_of(prediction: int | None) -> str:

@@ -20,7 +20,7 @@ from fairyring.model.contour.result import Arc as FoundArc
 from fairyring.model.geometry.raster import check_mark, check_outline
 from fairyring.model.geometry.shapes import Circle, GeometryError, Polygon
 from fairyring.storage import derived
-from fairyring.storage.documents import load_annotations, load_document, load_predictions
+from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived
@@ -97,7 +97,7 @@ def derive_edits(project: Project, edits: Sequence[Edit], *, known: Scene | None
     with project.read() as connection:
         for image_id in {edit.image for edit in edits} - scenes.keys():
             with suppress(StoreError):
-                scenes[image_id] = scene_of(load_document(connection, image_id))
+                scenes[image_id] = scene_of(load_contents(connection, image_id))
     for image_id, scene in scenes.items():
         scenes[image_id] = _with_edits(scene, [edit for edit in edits if edit.image == image_id])
     return [_derive(edit, scenes.get(edit.image)) for edit in edits]

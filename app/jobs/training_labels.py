@@ -15,7 +15,7 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
 from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
-from fairyring.storage.documents import load_annotations
+from fairyring.storage.contents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, get_image, list_ids
 from fairyring.storage.importing.intake import Intake, take_in

@@ -13,10 +13,10 @@ from fairyring.app.live.session import Selection, Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Predicted, Show
 from fairyring.storage import images
-from fairyring.storage.documents import load_version
+from fairyring.storage.contents import load_version
 from fairyring.storage.errors import StoreError
-from fairyring.storage.images import ImageFilter, Place
-from fairyring.storage.records import Document, Image, Status
+from fairyring.storage.images import ImageFilter, ListPosition
+from fairyring.storage.records import Image, ImageContents, Status
 
 CHANGES_IMAGE = ("status", "images", "cap", "review")
 """The parts of the panel that depend on the image on screen."""
@@ -24,9 +24,9 @@ CHANGES_IMAGE = ("status", "images", "cap", "review")
 
 @dataclass(frozen=True)
 class _Found:
-    document: Document
+    contents: ImageContents
     version: int
-    place: Place
+    position: ListPosition
     near: list[Image]
 
 
@@ -44,20 +44,20 @@ async def open_image(
 
 
 def _find(workspace: Workspace, connection: Connection, image_id: int, which: ImageFilter) -> _Found:
-    place = images.place_in_list(connection, which, image_id)
-    near = [images.get_image(connection, i) for i in (place.next, place.previous) if i is not None]
-    version, document = workspace.documents.load(connection, image_id)
-    return _Found(document, version, place, near)
+    position = images.position_in_list(connection, which, image_id)
+    near = [images.get_image(connection, i) for i in (position.next, position.previous) if i is not None]
+    version, contents = workspace.recent.load(connection, image_id)
+    return _Found(contents, version, position, near)
 
 
 def _show(session: Session, found: _Found, *, select: str | None) -> None:
-    session.show(found.document)
-    session.position, session.count = found.place.position, found.place.count
+    session.show(found.contents)
+    session.position, session.count = found.position.position, found.position.count
     session.selection = Selection(annotation=select)
     session.send(
         Show(
-            document=found.document,
-            photo=url_of_photo(found.document.image),
+            contents=found.contents,
+            photo=url_of_photo(found.contents.image),
             select=select,
             position=session.position,
             count=session.count,
@@ -90,8 +90,10 @@ async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> No
         await reopen(workspace, session, None)
         return
     here = session.image.id
-    place = await workspace.read(lambda connection: images.place_in_list(connection, session.filter, here))
-    target = place.next if by == 1 else place.previous
+    position = await workspace.read(
+        lambda connection: images.position_in_list(connection, session.filter, here)
+    )
+    target = position.next if by == 1 else position.previous
     if target is None:
         session.notify(
             "This is the last image of the list." if by == 1 else "This is the first image of the list."
@@ -106,16 +108,16 @@ async def set_status(workspace: Workspace, session: Session, image_id: int, stat
         lambda connection: images.set_status(connection, image_id, status, user=session.user)
     )
     for tab in workspace.tabs:
-        if tab.document is not None and tab.shows(image_id):
-            tab.document = msgspec.structs.replace(tab.document, image=image)
+        if tab.contents is not None and tab.shows(image_id):
+            tab.contents = msgspec.structs.replace(tab.contents, image=image)
         tab.refresh("status", "images")
 
 
 async def show_predictions(workspace: Workspace, image_id: int) -> None:
     """Draws what a run has just said of an image in every tab that shows it or lists it."""
-    _, document = await workspace.read(lambda c: workspace.documents.load(c, image_id))
+    _, contents = await workspace.read(lambda c: workspace.recent.load(c, image_id))
     for tab in workspace.tabs.others_on(image_id):
-        tab.take_predictions(document)
-        tab.send(Predicted(image=image_id, predictions=document.predictions))
+        tab.take_predictions(contents)
+        tab.send(Predicted(image=image_id, predictions=contents.predictions))
         tab.refresh("status", "cap")
     workspace.refresh("images")

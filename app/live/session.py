@@ -21,12 +21,12 @@ from fairyring.app.caps.nearby import Boxes
 from fairyring.app.panels.markup import element
 from fairyring.app.protocol import FromServer, Layers, Notice
 from fairyring.storage.images import ImageFilter
-from fairyring.storage.records import Annotation, Document, Image
+from fairyring.storage.records import Annotation, Image, ImageContents
 
 log = logging.getLogger(__name__)
 
 MOST_UNSENT = 2000
-"""Messages a tab may lag behind before it is cut off; it comes back to a fresh document."""
+"""Messages a tab may lag behind before it is cut off; it comes back and loads its image afresh."""
 LAYERS = {
     "photo": True,
     "outline": True,
@@ -64,7 +64,7 @@ class Session:
     """To the editor's socket; None while the editor is not connected."""
     hang_up: Callable[[], object] = lambda: None
     """Ends the editor's socket."""
-    document: Document | None = None
+    contents: ImageContents | None = None
     """The image on screen as it was opened, by ``show``; ``annotations`` is kept up to date."""
     annotations: dict[str, Annotation] = field(default_factory=dict)
     boxes: Boxes = field(default_factory=Boxes)
@@ -81,16 +81,16 @@ class Session:
     @property
     def image(self) -> Image | None:
         """The image on screen."""
-        return self.document.image if self.document else None
+        return self.contents.image if self.contents else None
 
     @property
     def scene(self) -> Scene | None:
         """The image on screen with its caps as they are now; the same until one of them changes."""
-        if self.document is None:
+        if self.contents is None:
             return None
-        if self._scene is None or self._scene.image is not self.document.image:
-            annotations, predictions = dict(self.annotations), self.document.predictions
-            self._scene = Scene(self.document.image, annotations, predictions, self.boxes)
+        if self._scene is None or self._scene.image is not self.contents.image:
+            annotations, predictions = dict(self.annotations), self.contents.predictions
+            self._scene = Scene(self.contents.image, annotations, predictions, self.boxes)
         return self._scene
 
     def shows(self, image_id: int) -> bool:
@@ -98,7 +98,7 @@ class Session:
         return self.image is not None and self.image.id == image_id
 
     def send(self, message: FromServer) -> None:
-        """Queues a message for the editor; dropped while it is away, as it comes back to a fresh document."""
+        """Queues a message for the editor; dropped while it is away, as it loads its image afresh."""
         if self.outbox is None:
             return
         try:
@@ -115,10 +115,10 @@ class Session:
         """Asks for parts of the panel to be drawn anew."""
         self.redraw(parts)
 
-    def show(self, document: Document) -> None:
-        """Notes that another document is on screen."""
-        self.document = document
-        self.annotations = {annotation.uid: annotation for annotation in document.annotations}
+    def show(self, contents: ImageContents) -> None:
+        """Notes that another image is on screen, with these contents."""
+        self.contents = contents
+        self.annotations = {annotation.uid: annotation for annotation in contents.annotations}
         self.boxes, self._scene = Boxes(), None
 
     def take_in(self, annotations: list[Annotation]) -> None:
@@ -128,11 +128,11 @@ class Session:
                 self.annotations[annotation.uid] = annotation
                 self._scene = None
 
-    def take_predictions(self, document: Document) -> None:
+    def take_predictions(self, contents: ImageContents) -> None:
         """Notes what a later run said of the image on screen."""
-        if self.document is not None and self.shows(document.image.id):
-            self.document = msgspec.structs.replace(
-                self.document, predictions=document.predictions, run=document.run
+        if self.contents is not None and self.shows(contents.image.id):
+            self.contents = msgspec.structs.replace(
+                self.contents, predictions=contents.predictions, run=contents.run
             )
             self._scene = None
 

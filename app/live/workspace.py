@@ -14,7 +14,7 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import Reviewer
 from fairyring.app.jobs.runner import Job, Jobs, Progress, Result
-from fairyring.app.live.read_ahead import Documents
+from fairyring.app.live.read_ahead import RecentImages
 from fairyring.app.live.session import Session, Tabs
 from fairyring.app.settings import Settings
 from fairyring.model.errors import FairyringError
@@ -31,7 +31,7 @@ class Workspace:
     settings: Settings
     tabs: Tabs = field(default_factory=Tabs)
     jobs: Jobs = field(default_factory=Jobs)
-    documents: Documents = field(default_factory=Documents)
+    recent: RecentImages = field(default_factory=RecentImages)
     _ahead: set[asyncio.Task[None]] = field(default_factory=set)
 
     @cached_property
@@ -60,7 +60,7 @@ class Workspace:
         async def load() -> None:
             for image_id in image_ids:
                 with suppress(FairyringError):
-                    await self.read(lambda connection, i=image_id: self.documents.load(connection, i))
+                    await self.read(lambda connection, i=image_id: self.recent.load(connection, i))
 
         task = asyncio.create_task(load())
         self._ahead.add(task)

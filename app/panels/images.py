@@ -10,7 +10,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
-from fairyring.storage.images import ImageFilter, ImagePage, ImageRow, list_images, place_in_list
+from fairyring.storage.images import ImageFilter, ImagePage, ImageRow, list_images, position_in_list
 
 PAGE = 10
 ANY = "any"
@@ -79,11 +79,11 @@ async def _follow(workspace: Workspace, session: Session, at: _Shown) -> None:
     if session.image is None:
         return
     here, which = session.image.id, session.filter
-    place = await workspace.read(lambda connection: place_in_list(connection, which, here))
-    session.position, session.count = place.position, place.count
+    found = await workspace.read(lambda connection: position_in_list(connection, which, here))
+    session.position, session.count = found.position, found.count
     session.refresh("status")
     if here != at.image:
-        at.image, at.page = here, place.position // PAGE
+        at.image, at.page = here, found.position // PAGE
 
 
 async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage:

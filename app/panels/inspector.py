@@ -18,7 +18,7 @@ from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.status import run_badge
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle, Polygon
-from fairyring.storage.documents import load_prediction, load_predictions, load_run
+from fairyring.storage.contents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
 
@@ -55,14 +55,14 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 async def _inspect(workspace: Workspace, session: Session) -> Markup:
     scene, selection = session.scene, session.selection
-    if scene is None or session.document is None:
+    if scene is None or session.contents is None:
         return EMPTY
     annotation = scene.annotations.get(selection.annotation or "")
     if annotation is not None and not annotation.deleted:
         return annotation_facts(annotation, await _background(workspace, scene, annotation))
     for prediction in scene.predictions:
         if prediction.id == selection.prediction:
-            return prediction_facts(prediction, session.document.run)
+            return prediction_facts(prediction, session.contents.run)
     return summary(session)
 
 
@@ -136,11 +136,11 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
 
 def summary(session: Session) -> Markup:
     """What the image on screen holds, while nothing is selected."""
-    assert session.document is not None
+    assert session.contents is not None
     live = [a for a in session.annotations.values() if not a.deleted]
     real = [a for a in live if not a.cap.ignored]
     touched = {a.cap.prediction for a in session.annotations.values()}
-    waiting = sum(p.id not in touched for p in session.document.predictions)
+    waiting = sum(p.id not in touched for p in session.contents.predictions)
     facts: Facts = [
         ("Caps", f"{len(real)}, {sum(a.cap.mark is not None for a in real)} marked"),
         ("Ignored", len(live) - len(real)),

@@ -214,7 +214,7 @@ export class Editor {
   }
 
   /**
-   * Opening the outbox takes a moment, and no document may overtake it.
+   * Opening the outbox takes a moment, and no image may overtake it.
    *
    * @type {(message: FromServer) => void}
    */
@@ -257,18 +257,18 @@ export class Editor {
   }
 
   /** @type {(show: Show) => void} */
-  #show({ document, photo, select, ahead }) {
+  #show({ contents, photo, select, ahead }) {
     const asked = this.#switchAsked ?? performance.now();
     this.#switchAsked = null;
-    const { image } = document;
+    const { image } = contents;
     if (image.id !== this.#desk.image?.id) {
       this.#toolbox.tool.cancel();
       this.#desk.settle();
       this.#frame.blank();
     }
     this.#fitting.forget();
-    this.#sync.open(image.id, document.annotations);
-    this.#desk.open(document);
+    this.#sync.open(image.id, contents.annotations);
+    this.#desk.open(contents);
     if (select) this.#desk.select([select], { reveal: true });
     this.#progress();
     this.#photos

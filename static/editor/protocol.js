@@ -130,7 +130,7 @@
 /** @typedef {Accepted | Conflict | Refused} Outcome */
 
 /**
- * @typedef {Object} Document
+ * @typedef {Object} ImageContents
  * @property {Image} image
  * @property {Annotation[]} annotations
  * @property {Prediction[]} predictions
@@ -210,7 +210,7 @@
 /**
  * @typedef {Object} Show
  * @property {"show"} type
- * @property {Document} document
+ * @property {ImageContents} contents
  * @property {string} photo
  * @property {string | null} select
  * @property {number} position

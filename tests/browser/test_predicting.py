@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server, served
 from fairyring.app.cli import app
-from fairyring.storage.documents import load_document
+from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.importing.run import import_paths
 from fairyring.storage.project import create_project, open_project
@@ -68,11 +68,11 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     tab.page.get_by_role("button", name="Cancel what is running").click()
     tab.page.get_by_text("what was done so far is kept").first.wait_for()
     with open_project(project) as opened, opened.read() as connection:
-        documents = [load_document(connection, i) for i in list_ids(connection, ImageFilter())]
-    predicted = [document for document in documents if document.run is not None]
+        every = [load_contents(connection, i) for i in list_ids(connection, ImageFilter())]
+    predicted = [contents for contents in every if contents.run is not None]
     assert 2 <= len(predicted) < PHOTOS
-    assert {document.run.id for document in predicted if document.run} == {1}
-    assert len(documents[0].annotations) == len(accepted)
+    assert {contents.run.id for contents in predicted if contents.run} == {1}
+    assert len(every[0].annotations) == len(accepted)
 
 
 def test_what_was_accepted_is_not_offered_again_by_a_later_run(

@@ -11,7 +11,7 @@ import pytest
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.documents import load_document
+from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import open_project
@@ -26,11 +26,11 @@ def marked(project: Path) -> tuple[Path, str]:
     with open_project(project) as opened:
         with opened.read() as connection:
             first = list_images(connection, ImageFilter(), limit=1).rows[0].image
-            document = load_document(connection, first.id)
+            contents = load_contents(connection, first.id)
         sure = sorted(
             (
                 p
-                for p in document.predictions
+                for p in contents.predictions
                 if p.centre and 100 < p.centre[0] < 1180 and 100 < p.centre[1] < 620
             ),
             key=lambda p: -p.score,

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fairyring.storage.documents import load_annotations
+from fairyring.storage.contents import load_annotations
 from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import history
 from fairyring.storage.project import create_project, open_project

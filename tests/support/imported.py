@@ -2,7 +2,7 @@
 
 import sqlite3
 
-from fairyring.storage.documents import load_annotations
+from fairyring.storage.contents import load_annotations
 
 
 def rows_of(project):

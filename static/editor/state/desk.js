@@ -14,7 +14,7 @@ import { joined } from "../geometry/view.js";
 
 /** @typedef {import("../geometry/handles.js").Handle} Handle */
 /** @typedef {import("../protocol.js").Cap} Cap */
-/** @typedef {import("../protocol.js").Document} Document */
+/** @typedef {import("../protocol.js").ImageContents} ImageContents */
 /** @typedef {import("../protocol.js").Fit} Fit */
 /** @typedef {import("../protocol.js").Image} Image */
 /** @typedef {import("../protocol.js").Prediction} Prediction */
@@ -133,17 +133,17 @@ export class Desk {
   /**
    * Puts another image, or a fresh copy of the same, on the desk. The store holds its caps already.
    *
-   * @param {Document} document
+   * @param {ImageContents} contents
    */
-  open(document) {
-    const same = this.image?.id === document.image.id;
+  open(contents) {
+    const same = this.image?.id === contents.image.id;
     const selected = same ? [...this.selected] : [];
-    this.image = document.image;
-    this.predictions = document.predictions.map(shapeOfPrediction);
+    this.image = contents.image;
+    this.predictions = contents.predictions.map(shapeOfPrediction);
     this.#items = null;
     this.drafts.clear();
     this.hovered = null;
-    this.lens.turnTo(document.image);
+    this.lens.turnTo(contents.image);
     this.selected = new Set(selected.filter((uid) => this.item(uid)));
     this.active = null;
     this.signals.picture.emit();

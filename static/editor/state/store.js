@@ -55,7 +55,7 @@ export class Store {
   }
 
   /**
-   * Starts over with the shapes of another document.
+   * Starts over with the shapes of another image.
    *
    * @param {Shape[]} shapes
    */

@@ -161,7 +161,7 @@ export class Sync {
   }
 
   /**
-   * A fresh document, with what is still unacknowledged applied over it.
+   * An image as the store has it, with what is still unacknowledged applied over it.
    *
    * @param {number} image
    * @param {Annotation[]} annotations

@@ -21,7 +21,7 @@ STRUCTS = (
     records.Prediction,
     records.Run,
     records.Edit,
-    records.Document,
+    records.ImageContents,
     *get_args(records.Outcome),
     Circle,
     Ellipse,

@@ -8,7 +8,7 @@ from fairyring.storage.comparisons import (
     stale_images,
     store_comparison,
 )
-from fairyring.storage.documents import load_version
+from fairyring.storage.contents import load_version
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import add_predictions, add_run
 from fairyring.storage.records import Cap, Edit

@@ -1,6 +1,7 @@
 import pytest
 
 from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.contents import load_annotation, load_contents
 from fairyring.storage.derived import (
     AnnotationFit,
     Fit,
@@ -10,7 +11,6 @@ from fairyring.storage.derived import (
     store_derived,
     underived_of,
 )
-from fairyring.storage.documents import load_annotation, load_document
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
@@ -54,9 +54,9 @@ def test_what_lacks_a_whole_outline_is_found_until_it_is_stored(lacking):
 
     assert lacking.write(store) == 2
     with lacking.read() as connection:
-        document = load_document(connection, 1)
+        contents = load_contents(connection, 1)
         assert images_with_underived(connection) == []
-    for cap in (*document.annotations, *document.predictions):
+    for cap in (*contents.annotations, *contents.predictions):
         assert (cap.whole, cap.centre) == (FIT.whole, FIT.centre)
     assert lacking.write(store) == 0
 

@@ -12,7 +12,7 @@ from fairyring.storage.images import (
     get_image,
     list_ids,
     list_images,
-    place_in_list,
+    position_in_list,
     set_status,
     sort_name,
 )
@@ -152,7 +152,7 @@ def test_the_place_of_an_image_is_where_the_list_shows_it(many, which):
         ids = list_ids(connection, which)
         assert ids == [row.image.id for row in list_images(connection, which, limit=100).rows]
         for position, image_id in enumerate(ids):
-            place = place_in_list(connection, which, image_id)
+            place = position_in_list(connection, which, image_id)
             assert (place.position, place.count) == (position, len(ids))
             assert place.previous == (ids[position - 1] if position else None)
             assert place.next == (ids[position + 1] if position + 1 < len(ids) else None)
@@ -161,13 +161,13 @@ def test_the_place_of_an_image_is_where_the_list_shows_it(many, which):
 def test_an_image_the_filter_leaves_out_still_has_neighbours(beds):
     beds.write(lambda connection: set_status(connection, 2, "approved", user="ann"))
     with beds.read() as connection:
-        place = place_in_list(connection, ImageFilter(status="new"), 2)
+        place = position_in_list(connection, ImageFilter(status="new"), 2)
     assert (place.position, place.count, place.previous, place.next) == (1, 2, 1, 3)
 
 
 def test_an_image_that_is_not_there_is_named(beds):
     with beds.read() as connection:
-        for ask in (get_image, lambda c, number: place_in_list(c, ImageFilter(), number)):
+        for ask in (get_image, lambda c, number: position_in_list(c, ImageFilter(), number)):
             with pytest.raises(StoreError, match="no image number 99"):
                 ask(connection, 99)
         assert find_image(connection, "bed_9.png") is None

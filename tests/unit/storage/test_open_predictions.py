@@ -3,7 +3,7 @@
 import pytest
 
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.documents import load_document, load_predictions
+from fairyring.storage.contents import load_contents, load_predictions
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.open_predictions import offered
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
@@ -79,8 +79,8 @@ def repredicted(beds, square):
 
 def test_the_document_holds_what_is_left_to_say_and_the_store_keeps_all(repredicted):
     with repredicted.read() as connection:
-        document, said = load_document(connection, 1), load_predictions(connection, 1)
-    assert [p.visible for p in document.predictions] == [box(60, 40, 80, 60)]
+        contents, said = load_contents(connection, 1), load_predictions(connection, 1)
+    assert [p.visible for p in contents.predictions] == [box(60, 40, 80, 60)]
     assert len(said) == 2
     assert {p.run for p in said} == {2}
 
@@ -89,4 +89,4 @@ def test_a_prediction_is_offered_again_once_the_cap_above_it_is_deleted(repredic
     gone = Edit(id="e2", annotation="a", image=1, base=1, cap=None)
     commit(repredicted, [Derived(edit=gone)], user="Ada")
     with repredicted.read() as connection:
-        assert len(load_document(connection, 1).predictions) == 2
+        assert len(load_contents(connection, 1).predictions) == 2

@@ -4,14 +4,14 @@ import pytest
 
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.derived import underived_of
-from fairyring.storage.documents import (
-    load_document,
+from fairyring.storage.contents import (
+    load_contents,
     load_prediction,
     load_predictions,
     load_run,
     load_version,
 )
+from fairyring.storage.derived import underived_of
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import (
@@ -73,17 +73,17 @@ def test_the_document_shows_the_latest_run_that_saw_the_image(beds, square):
     predict(beds, square, name="second", scores=(0.25,))
     predict(beds, square, name="third", image=2)
     with beds.read() as connection:
-        document = load_document(connection, 1)
-    assert document.run.name == "second"
-    assert [p.score for p in document.predictions] == [0.25]
+        contents = load_contents(connection, 1)
+    assert contents.run.name == "second"
+    assert [p.score for p in contents.predictions] == [0.25]
 
 
 def test_a_run_that_saw_nothing_in_an_image_is_still_the_latest(beds, square):
     predict(beds, square, name="first")
     predict(beds, square, name="second", scores=())
     with beds.read() as connection:
-        document = load_document(connection, 1)
-    assert (document.run.name, document.predictions) == ("second", [])
+        contents = load_contents(connection, 1)
+    assert (contents.run.name, contents.predictions) == ("second", [])
 
 
 def test_an_older_run_that_adds_later_does_not_become_the_latest(beds, square):
@@ -92,7 +92,7 @@ def test_an_older_run_that_adds_later_does_not_become_the_latest(beds, square):
     new = [NewPrediction(visible=square, score=0.5)]
     beds.write(lambda c: add_predictions(c, run_id=first, image_id=1, predictions=new))
     with beds.read() as connection:
-        assert load_document(connection, 1).run.name == "second"
+        assert load_contents(connection, 1).run.name == "second"
 
 
 def test_the_same_predictions_again_add_nothing(beds, square):
@@ -125,11 +125,11 @@ def test_a_rejected_prediction_is_no_longer_shown_and_an_accepted_one_is(beds, s
         beds, [edit("1", "a", 0, accepted), edit("2", "b", 0, rejected), edit("3", "b", 1, None)], user="ann"
     )
     with beds.read() as connection:
-        assert [p.id for p in load_document(connection, 1).predictions] == [1]
+        assert [p.id for p in load_contents(connection, 1).predictions] == [1]
         assert [p.id for p in load_predictions(connection, 1)] == [1, 2]
     commit(beds, [edit("4", "b", 2, rejected)], user="ann")
     with beds.read() as connection:
-        assert [p.id for p in load_document(connection, 1).predictions] == [1, 2]
+        assert [p.id for p in load_contents(connection, 1).predictions] == [1, 2]
 
 
 def test_new_predictions_make_figures_of_the_image_stale(beds, square):

@@ -13,7 +13,7 @@ from fairyring.app.jobs.runner import CancelledError
 from fairyring.app.protocol import Show
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
-from fairyring.storage.documents import load_annotations, load_predictions
+from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
@@ -105,7 +105,7 @@ def test_after_edits_an_image_is_compared_once_in_the_background(project: Projec
 def test_an_edit_in_a_tab_brings_the_review_up_to_date(port: int, project: Project) -> None:
     fill_in(project)
     with Tab(port, image=1) as tab:
-        left = tab.expect(Show).document.predictions[0]
+        left = tab.expect(Show).contents.predictions[0]
         tab.edit(new_cap(1, visible=left.visible, mark=Circle(left.centre[0] + 3.2, left.centre[1], 20)))
         until(lambda: "up to 2.00 %" in tab.panel.html, "the plot")
         assert 'data-fairyring-select="cap-1"' in tab.panel.html

@@ -10,8 +10,8 @@ from fairyring.app.caps.nearby import Boxes, box_of, keys_near
 from fairyring.app.caps.whole_outlines import derive_edits, fill_in, refit, whole_of
 from fairyring.app.protocol import Refit
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, diameter_of_shape
+from fairyring.storage.contents import load_annotations, load_contents
 from fairyring.storage.derived import images_with_underived
-from fairyring.storage.documents import load_annotations, load_document
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image
@@ -67,20 +67,20 @@ def test_neighbours_are_those_whose_boxes_touch() -> None:
 
 def test_context_leaves_out_predictions_that_somebody_took_up(project: Project) -> None:
     with project.read() as connection:
-        document = load_document(connection, 1)
-    left, right = document.predictions
+        contents = load_contents(connection, 1)
+    left, right = contents.predictions
     commit(project, [Derived(edit=new_cap(1, prediction=left.id))], user="Ada")
     with project.read() as connection:
         annotations = {a.uid: a for a in load_annotations(connection, 1)}
-    scene = Scene(document.image, annotations, document.predictions)
+    scene = Scene(contents.image, annotations, contents.predictions)
     assert set(scene.visible) == {"cap-1", f"prediction {right.id}"}
 
 
 def test_a_refit_says_what_the_edit_will_store(project: Project) -> None:
     cap = Cap(visible=circle(90, 70, 18))
     with project.read() as connection:
-        document = load_document(connection, 1)
-    fit = refit(scene_of(document), Refit(seq=1, image=1, annotation="a", cap=cap))
+        contents = load_contents(connection, 1)
+    fit = refit(scene_of(contents), Refit(seq=1, image=1, annotation="a", cap=cap))
     stored = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])[0]
     assert fit.whole == stored.whole
     assert fit.centre == stored.centre
@@ -154,7 +154,7 @@ def test_filling_in_finds_what_is_missing_and_then_nothing_more(project: Project
     with project.read() as connection:
         assert images_with_underived(connection) == []
         marked = load_annotations(connection, 2)[0]
-        left, right = load_document(connection, 1).predictions
+        left, right = load_contents(connection, 1).predictions
     assert marked.centre == (30, 30)
     assert left.centre == pytest.approx((40, 40), abs=0.25)
     assert right.centre == pytest.approx((110, 60), abs=0.25)

@@ -21,7 +21,7 @@ from fairyring.app.protocol import Edits, Notice, Predicted, Select, Show
 from fairyring.app.weights import weights_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.predict.predictor import Predictor
-from fairyring.storage.documents import load_annotations, load_document, load_predictions
+from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.predictions import list_runs
 from fairyring.storage.project import Project
@@ -65,20 +65,20 @@ def test_predict_stores_outlines_scores_and_centres_with_the_weights_that_said_s
     assert done.exit_code == 0, done.output
     figures = json.loads(done.stdout)
     with project.read() as connection:
-        documents = [load_document(connection, i) for i in list_ids(connection, ImageFilter())]
+        every = [load_contents(connection, i) for i in list_ids(connection, ImageFilter())]
     assert figures == {
         "images": 3,
-        "caps": sum(len(document.predictions) for document in documents),
+        "caps": sum(len(contents.predictions) for contents in every),
         "known": 0,
         "problems": 0,
     }
-    for document in documents:
-        assert document.run is not None
-        assert (document.run.kind, document.run.weights) == ("network", network.digest)
-        assert document.run.settings["least_score"] == 0.3
-        assert document.predictions
-        assert all(0.3 <= p.score <= 1 and p.visible for p in document.predictions)
-    told = [p for document in documents for p in document.predictions if p.whole is not None]
+    for contents in every:
+        assert contents.run is not None
+        assert (contents.run.kind, contents.run.weights) == ("network", network.digest)
+        assert contents.run.settings["least_score"] == 0.3
+        assert contents.predictions
+        assert all(0.3 <= p.score <= 1 and p.visible for p in contents.predictions)
+    told = [p for contents in every for p in contents.predictions if p.whole is not None]
     assert told
     assert all(p.centre == (p.whole.cx, p.whole.cy) for p in told if p.whole)
     assert all(min(p.extra["center_sd"]) > 0 for p in told if "center_sd" in p.extra)
@@ -127,14 +127,14 @@ def test_other_weights_or_redo_make_a_run_of_their_own_which_is_then_shown(
     assert predict_images(project, network, ids[:1], redo=True).images == 1
     with project.read() as connection:
         runs = list_runs(connection)
-        shown = load_document(connection, ids[0]).run
+        shown = load_contents(connection, ids[0]).run
     assert [run.kind for run in runs] == ["network"] * 4 + ["simulated"]
     assert shown == runs[0]
 
 
 def test_annotations_are_never_touched(port: int, project: Project, network: Network, ids: list[int]) -> None:
     with Tab(port, image=ids[0]) as tab:
-        shown = tab.expect(Show).document.predictions[0]
+        shown = tab.expect(Show).contents.predictions[0]
         tab.edit(new_cap(ids[0], prediction=shown.id))
     with project.read() as connection:
         before = load_annotations(connection, ids[0])
@@ -151,7 +151,7 @@ def test_what_people_have_labelled_is_not_offered_again_but_still_compared(
     # Other settings that see the same, so that the button makes a run of its own.
     predict_images(project, network_of(own, device="cpu", least_score=0.300001), ids[:1])
     with Tab(serve(), image=ids[0]) as tab:
-        first = tab.expect(Show).document.predictions
+        first = tab.expect(Show).contents.predictions
         accepted = [
             new_cap(ids[0], uid=f"cap-{p.id}", edit=f"e{p.id}", visible=p.visible, prediction=p.id)
             for p in first
@@ -164,7 +164,7 @@ def test_what_people_have_labelled_is_not_offered_again_but_still_compared(
         until(lambda: f'title="{accepted[0].annotation}"' in tab.panel.html, "the inspector")
         assert "none matches this cap" not in tab.panel.html
     with project.read() as connection:
-        assert load_document(connection, ids[0]).predictions == []
+        assert load_contents(connection, ids[0]).predictions == []
         again = load_predictions(connection, ids[0])
     assert len(again) == len(first)
     assert {p.run for p in again}.isdisjoint({p.run for p in first})
@@ -237,8 +237,8 @@ def test_a_button_predicts_the_image_and_draws_it_in_every_tab_that_shows_it(
         assert told == same.expect(Predicted)
         assert told.image == ids[0]
         with project.read() as connection:
-            document = load_document(connection, ids[0])
-        assert told.predictions == document.predictions != shown.document.predictions
+            contents = load_contents(connection, ids[0])
+        assert told.predictions == contents.predictions != shown.contents.predictions
         sentence = tab.expect(Notice).text
         assert re.search(rf"own \w+: 1 image predicted, {len(told.predictions)} caps? seen\.", sentence)
         # A prediction that was just drawn can be accepted at once.
@@ -266,7 +266,7 @@ def test_a_button_predicts_every_image_until_it_is_cancelled(
         tab.panel.set("Cancel what is running", True)
         assert "Cancelled" in tab.expect(Notice).text
     with project.read() as connection:
-        runs = {i: load_document(connection, i).run for i in ids}
+        runs = {i: load_contents(connection, i).run for i in ids}
     kinds = [run.kind if run else None for run in runs.values()]
     assert kinds[0] == "network"
     assert kinds[2] is None

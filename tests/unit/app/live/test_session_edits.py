@@ -114,7 +114,7 @@ def test_an_edit_of_an_image_that_is_not_there_is_refused(port: int) -> None:
 
 def test_accepting_a_prediction_keeps_where_it_came_from(port: int) -> None:
     with Tab(port, image=1) as tab:
-        prediction = tab.expect(Show).document.predictions[0]
+        prediction = tab.expect(Show).contents.predictions[0]
         cap = Cap(visible=prediction.visible, prediction=prediction.id)
         outcome = tab.edit(Edit(id="e", annotation="a", image=1, base=0, cap=cap)).outcomes[0]
         assert outcome.annotation.cap.prediction == prediction.id

@@ -31,10 +31,10 @@ def test_a_tab_is_welcomed_and_shown_the_first_image(port: int, project: Project
     with Tab(port, name="Åsa") as tab:
         assert tab.expect(Welcome) == Welcome(user="Åsa", project=project.id)
         shown = tab.expect(Show)
-        assert shown.document.image.file_name == "bed_1.jpg"
+        assert shown.contents.image.file_name == "bed_1.jpg"
         assert (shown.position, shown.count) == (0, 3)
-        assert len(shown.document.predictions) == 2
-        assert shown.document.run.kind == "simulated"
+        assert len(shown.contents.predictions) == 2
+        assert shown.contents.run.kind == "simulated"
         assert shown.photo.startswith("/photos/1/")
         assert [url.split("/")[2] for url in shown.ahead] == ["2"]
 
@@ -75,10 +75,10 @@ def test_the_editor_is_let_go_when_its_tab_disconnects(port: int) -> None:
 
 def test_a_tab_comes_back_to_its_image_after_a_restart(serve: Callable[..., int]) -> None:
     with Tab(serve(), image=2) as tab:
-        assert tab.expect(Show).document.image.id == 2
+        assert tab.expect(Show).contents.image.id == 2
     with Tab(serve(), image=99) as tab:
         assert tab.expect(Notice).level == "warning"
-        assert tab.expect(Show).document.image.id == 1
+        assert tab.expect(Show).contents.image.id == 1
 
 
 def test_two_tabs_stay_on_images_of_their_own(port: int) -> None:
@@ -90,7 +90,7 @@ def test_two_tabs_stay_on_images_of_their_own(port: int) -> None:
         assert ada.nothing_more(Changed)
         assert bo.nothing_more(Changed)
         ada.send(Open(image=3))
-        assert ada.expect(Show).document.image.id == 3
+        assert ada.expect(Show).contents.image.id == 3
         assert bo.nothing_more(Show)
         assert "Bodil Ek" not in ada.panel.html
         until(lambda: "bed_2.jpg" in bo.panel.html)
@@ -103,7 +103,7 @@ def test_steps_follow_the_list_and_stop_at_its_ends(port: int) -> None:
         assert "first image" in tab.expect(Notice).text
         for expected in (2, 3):
             tab.send(Step(by=1))
-            assert tab.expect(Show).document.image.id == expected
+            assert tab.expect(Show).contents.image.id == expected
         tab.send(Step(by=1))
         assert "last image" in tab.expect(Notice).text
 
@@ -115,7 +115,7 @@ def test_steps_follow_the_filter(port: int) -> None:
         until(lambda: "1–1 of 1 images" in tab.panel.html, "the filtered list")
         tab.send(Step(by=1))
         shown = tab.expect(Show)
-        assert (shown.document.image.id, shown.position, shown.count) == (3, 0, 1)
+        assert (shown.contents.image.id, shown.position, shown.count) == (3, 0, 1)
 
 
 def test_a_status_is_stored_with_its_author_and_every_list_follows(port: int, project: Project) -> None:
@@ -152,7 +152,7 @@ def test_an_image_that_is_gone_is_a_notice_and_nothing_else_changes(port: int) -
         assert "404" in notice.text
         tab.send(Select(annotation="cap-1"))
         tab.send(Step(by=1))
-        assert tab.expect(Show).document.image.id == 3
+        assert tab.expect(Show).contents.image.id == 3
 
 
 def test_numbers_beyond_the_database_do_no_harm(port: int) -> None:

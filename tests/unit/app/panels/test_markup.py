@@ -19,7 +19,7 @@ from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.comparisons import Comparison, ComparisonRow
 from fairyring.storage.images import ImagePage, ImageRow
 from fairyring.storage.journal import Entry
-from fairyring.storage.records import Annotation, Cap, Document, Image, Prediction, Run
+from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Prediction, Run
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (
@@ -84,7 +84,7 @@ FIGURES = Comparison(
 def session() -> Session:
     nobody = object()
     opened = Session(client=nobody, beacon=nobody, token=None, user=EVIL)
-    opened.document = Document(image=IMAGE, annotations=[ANNOTATION], predictions=[PREDICTION], run=RUN)
+    opened.contents = ImageContents(image=IMAGE, annotations=[ANNOTATION], predictions=[PREDICTION], run=RUN)
     return opened
 
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
-from fairyring.storage.documents import load_annotations, load_predictions
+from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_writing import annotation_entry
 from fairyring.storage.importing.cap_checks import fit_caps

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fairyring.model.geometry.shapes import Ellipse
-from fairyring.storage.documents import load_annotations, load_document, load_predictions, load_run
+from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_run
 from fairyring.storage.importing.run import import_paths
 from tests.unit.storage.conftest import TRIANGLE
 
@@ -52,6 +52,6 @@ def test_a_prediction_that_is_only_a_circle_is_seen_as_that_circle(beds, write_c
         beds, [write_coco([{"segmentation": [], "circle": [50, 40, 20], "score": 0.5}])], as_="predictions"
     )
     with beds.read() as connection:
-        (prediction,) = load_document(connection, 1).predictions
+        (prediction,) = load_contents(connection, 1).predictions
     points = np.reshape(prediction.visible[0], (-1, 2))
     assert np.hypot(*(points - (50, 40)).T) == pytest.approx(20)

@@ -4,7 +4,7 @@ from pycocotools import mask
 from sqlalchemy import text
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
-from fairyring.storage.documents import load_annotation, load_annotations, load_version
+from fairyring.storage.contents import load_annotation, load_annotations, load_version
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Accepted, Cap

@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from fairyring.storage.documents import load_annotation
+from fairyring.storage.contents import load_annotation
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused
 from tests.support.edits import edit, journal_rows, one

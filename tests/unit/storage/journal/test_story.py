@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from sqlalchemy import delete, exc, update
 
 from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.contents import load_annotation
 from fairyring.storage.db import schema
-from fairyring.storage.documents import load_annotation
 from fairyring.storage.journal import commit, history
 from fairyring.storage.project import open_project
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused

@@ -19,10 +19,10 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import annotation, image, prediction, run
 from fairyring.storage.open_predictions import offered
-from fairyring.storage.records import Annotation, Document, Prediction, Run
+from fairyring.storage.records import Annotation, ImageContents, Prediction, Run
 
 
-def load_document(connection: Connection, image_id: int) -> Document:
+def load_contents(connection: Connection, image_id: int) -> ImageContents:
     """Everything the editor shows: live annotations, and predictions that are open or became one of them.
 
     Predictions that somebody deleted, or that lie on a cap people have labelled already, are left out.
@@ -33,7 +33,7 @@ def load_document(connection: Connection, image_id: int) -> Document:
     row = require_image(connection, image_id)
     photo, annotations = image_of(row), load_annotations(connection, image_id)
     predictions = _predictions(connection, _of_latest_run(image_id).where(~_rejected()))
-    return Document(
+    return ImageContents(
         image=photo,
         annotations=annotations,
         predictions=offered(photo, annotations, predictions),
