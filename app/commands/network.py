@@ -60,7 +60,7 @@ def train(
     workers: Annotated[
         int | None, typer.Option(min=0, help="Processes that cut crops: one, or eight for a GPU.")
     ] = None,
-    resume: Annotated[bool, typer.Option(help="Go on with the run in --out where it stopped.")] = False,
+    resume: Annotated[bool, typer.Option(help="Go on with the training in --out where it stopped.")] = False,
     lenient: Annotated[
         bool, typer.Option(help="Leave out labels that cannot be used instead of stopping.")
     ] = False,

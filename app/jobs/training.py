@@ -24,7 +24,7 @@ from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.shipped import RECIPE, SHIPPED
 from fairyring.model.train.checkpoint import CheckpointError
-from fairyring.model.train.loop import RUN, TrainResult, train
+from fairyring.model.train.loop import CARD, TrainResult, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.storage.project import SETTINGS
 
@@ -38,7 +38,7 @@ FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 2e-5, 0.98
 
 @dataclass(frozen=True, kw_only=True)
 class Asked:
-    """What a person asks of a run; None asks for nothing."""
+    """What a person asks of a training; None asks for nothing."""
 
     config: Path | None = None
     """A recipe."""
@@ -59,11 +59,11 @@ class Asked:
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """What a run starts from."""
+    """What a training starts from."""
 
     recipe: Recipe
     base: PRSOLOv2 | None
-    """Trained further; None for a new network, and for a run that goes on from its checkpoint."""
+    """Trained further; None for a new network, and for a training that goes on from its checkpoint."""
     notes: dict[str, Any]
     """For ``run.json`` and the card of the weights."""
 
@@ -75,7 +75,7 @@ def train_as_asked(
 
     A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
     for. Where no recipe is, weights of ours are trained ``further``, a new network by the paper's.
-    Raises FairyringError, and whatever ``progress`` raises; then the run can be resumed.
+    Raises FairyringError, and whatever ``progress`` raises; then it can be resumed.
     """
     on = device_of(device)
     labels = labels_at(sources, lenient=asked.lenient, progress=progress)
@@ -134,7 +134,7 @@ def further() -> Recipe:
 
 
 def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
-    """A new run from weights of ours, from a backbone's ``.pth``, or (``imagenet``, None) from ImageNet's.
+    """A new training: from weights of ours, a backbone's ``.pth``, or (``imagenet``, None) ImageNet's.
 
     Raises FairyringError where they cannot be had, or do not fit the recipe's network.
     """
@@ -191,27 +191,27 @@ def shipped_for(recipe: Recipe) -> str | None:
 
 
 def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
-    """The run in ``out``, to go on with, by its own recipe.
+    """The training in ``out``, to go on with, by its own recipe.
 
     Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
     """
     try:
-        card = msgspec.json.decode((out / RUN).read_bytes(), type=dict[str, Any])
+        card = msgspec.json.decode((out / CARD).read_bytes(), type=dict[str, Any])
         recipe = msgspec.convert(card.pop("recipe"), Recipe)
     except FileNotFoundError:
         raise CheckpointError(f"There is nothing to resume in {out}; start without --resume.") from None
     except (OSError, KeyError, msgspec.MsgspecError) as error:
-        raise CheckpointError(f"{out / RUN} cannot be read; start again in a new folder.") from error
+        raise CheckpointError(f"{out / CARD} cannot be read; start again in a new folder.") from error
     wanted = structs.replace(asked.recipe(recipe), network=recipe.network)
     if wanted != recipe:
         changed = [n for n in Recipe.__struct_fields__ if getattr(wanted, n) != getattr(recipe, n)]
         raise FairyringError(
-            f"The run in {out} has another recipe ({', '.join(changed)}); "
+            f"The training in {out} has another recipe ({', '.join(changed)}); "
             "resume without --config, --iterations and --seed, or train into a new folder."
         )
     if card.get("labels") != digest_of(labels):
         raise FairyringError(
-            f"The labels have changed since the run in {out} began; train into a new folder, "
+            f"The labels have changed since the training in {out} began; train into a new folder, "
             f"from its weights if you like."
         )
     card.pop("images", None)

@@ -13,7 +13,7 @@ from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silh
 from fairyring.model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.raster import check_outline
-from fairyring.model.geometry.rle import checked_runs, cut_of_runs
+from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import Circle, GeometryError
 
 OURS = ("center", "circle", "ellipse", "center_sd", "shape", "refusal")
@@ -87,10 +87,10 @@ def _seen(annotation: dict[str, Any], *, width: int, height: int) -> tuple[Silho
         if isinstance(segmentation, list):
             outline = check_outline(segmentation, width=width, height=height)
             return silhouette_of_outline(outline, width=width, height=height), None
-        rows, columns, runs = checked_runs(segmentation)
+        rows, columns, counts = checked_counts(segmentation)
         if (rows, columns) != (height, width):
             return NOTHING, f"Its mask is not of the image's size, {width} × {height}."
-        mask, (left, top) = cut_of_runs(rows, runs)
+        mask, (left, top) = cut_of_counts(rows, counts)
     except GeometryError as error:
         return NOTHING, str(error)
     return Silhouette(np.ascontiguousarray(mask), left, top), None

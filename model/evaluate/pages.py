@@ -19,7 +19,7 @@ from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.mask_tracing import rim_of_mask
 from fairyring.model.geometry.raster import Rle, check_outline, check_rle, rle_of_outline
-from fairyring.model.geometry.rle import checked_runs, cut_of_runs
+from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import (
     Centre,
     Circle,
@@ -272,8 +272,8 @@ def _fitted(segmentation: Any, image: _Image) -> Shape | None:
     if isinstance(segmentation, list):
         outline = check_outline(segmentation, width=image.width, height=image.height)
         return whole_of_mark(Polygon([figure for part in outline for figure in part]))
-    height, _, runs = checked_runs(segmentation)
-    cut, corner = cut_of_runs(height, runs)
+    height, _, counts = checked_counts(segmentation)
+    cut, corner = cut_of_counts(height, counts)
     return whole_of_mark(Polygon(part_of_points(rim_of_mask(cut) + corner)))
 
 

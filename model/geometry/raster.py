@@ -24,7 +24,7 @@ from fairyring.model.geometry.mask_tracing import (
     join_holes,
     knots_of_loop,
 )
-from fairyring.model.geometry.rle import checked_runs, cut_of_runs
+from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.self_contact import area_if_plainly_simple, self_contact
 from fairyring.model.geometry.shapes import (
     Circle,
@@ -138,14 +138,14 @@ def check_rle(rle: Any) -> Rle:
     pycocotools writes past its buffers where the counts do not add up to the size, so nothing from outside
     may reach it unchecked. Raises GeometryError.
     """
-    height, width, runs = checked_runs(rle)
-    return _as_text(coco.frPyObjects({"size": [height, width], "counts": runs}, height, width))
+    height, width, counts = checked_counts(rle)
+    return _as_text(coco.frPyObjects({"size": [height, width], "counts": counts}, height, width))
 
 
 def outline_of_rle(rle: Any) -> Outline:
     """The outline of an RLE as a file holds it; GeometryError where it is not one or covers no pixel."""
-    height, width, runs = checked_runs(rle)
-    cut, corner = cut_of_runs(height, runs)
+    height, width, counts = checked_counts(rle)
+    cut, corner = cut_of_counts(height, counts)
     return _outline(cut, corner=corner, image=(width, height))
 
 
@@ -265,7 +265,7 @@ def _covered(part: list[float], width: int, height: int) -> Outline:
     code = rle_of_outline([part], height=height, width=width)
     if area_of_rle(code) == 0:
         raise GeometryError("A polygon that crosses itself covers no pixel.")
-    # By its runs, as a mask of the whole image would take a hundred times as long.
+    # By its counts, as a mask of the whole image would take a hundred times as long.
     return outline_of_rle(code)
 
 

@@ -1,4 +1,4 @@
-"""Drawing the edge at photo pixels: each instance's logits, doubled again and again, seen anew where unclear.
+"""Refining masks to photo pixels: logits are doubled again and again, and computed anew where unclear.
 
 PointRend's inference (Kirillov et al., CVPR 2020), on each instance's own window and never on whole images.
 """
@@ -20,10 +20,10 @@ POINTS_PER_SIDE = 8
 LEAST_SCORE = 0.3
 """Instances less sure are only enlarged: hardly any is a cap, and there are many."""
 WINDOWS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
-"""Sides of windows in cells of the mask; instances of one side are drawn together."""
+"""Sides of windows in cells of the mask; instances of one side are refined together."""
 
 
-class Drawn(NamedTuple):
+class RefinedMask(NamedTuple):
     """One instance at photo pixels."""
 
     x: int
@@ -33,7 +33,7 @@ class Drawn(NamedTuple):
     """(s, s); above 0 is cap."""
 
 
-def draw(
+def refine(
     head: PointHead | None,
     maps: PointMaps | None,
     instances: Instances,
@@ -41,13 +41,13 @@ def draw(
     image: int,
     mask_stride: int,
     finest: int = 1,
-) -> list[Drawn]:
+) -> list[RefinedMask]:
     """Every instance at photo pixels.
 
     ``finest``: photo pixels a side of the finest points seen anew. From there on, and without a point head,
     logits are enlarged bilinearly, and so are those of instances whose score is below LEAST_SCORE.
     """
-    drawn: list[Drawn | None] = [None] * len(instances.scores)
+    refined: list[RefinedMask | None] = [None] * len(instances.scores)
     boxes = main_boxes_of(instances.logits > 0)
     windows = with_margin(boxes, least=1)
     corners, sides = windows[:, :2], windows[:, 2:].amax(1)
@@ -65,8 +65,8 @@ def draw(
                 asker = _Asker(head, maps, kernels, frames, at, image)
             logits = _enlarged(logits, asker, stride=mask_stride, finest=finest)
             for index, (x, y), window in zip(group.tolist(), at.long().tolist(), logits, strict=True):
-                drawn[index] = Drawn(x, y, window)
-    return [one for one in drawn if one is not None]
+                refined[index] = RefinedMask(x, y, window)
+    return [one for one in refined if one is not None]
 
 
 class _Asker(NamedTuple):

@@ -1,4 +1,4 @@
-"""Visible masks do not overlap: which instances are caps of their own, whose a pixel is that two claim."""
+"""Non-maximum suppression of masks, and overlap resolution: which of two caps a pixel belongs to."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 CONFIDENT = 0.3
-"""Score from which an instance takes pixels from others."""
+"""Least score of an instance that takes pixels from others."""
 MOST_TAKEN = 0.5
-"""Share of an instance's pixels in better ones above which it is another view of the same cap."""
+"""An instance with more than this share of its pixels in better ones is a duplicate."""
 
 LEAST_PART = 0.5
-"""Share of the largest part below which another is a speck, as a cap parted by what lies over it is rare."""
+"""Parts under this share of the largest are left out: a cap parted by what lies over it is rare."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +28,7 @@ class Window:
 
 
 def distinct(masks: NDArray[np.bool_], scores: Sequence[float]) -> list[int]:
-    """The places of the instances that do not lie, for the most part, on better and confident ones.
+    """Indices of the instances that do not lie, for the most part, on better and confident ones.
 
     ``masks`` (n, h, w), of any stride; ``scores`` must fall. An empty mask is left out, too.
     """
@@ -44,10 +44,13 @@ def distinct(masks: NDArray[np.bool_], scores: Sequence[float]) -> list[int]:
     return kept
 
 
-def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int) -> list[Window]:
+def resolve_overlaps(
+    windows: Sequence[Window], scores: Sequence[float], *, width: int, height: int
+) -> list[Window]:
     """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
 
-    Where two caps touch, the edge then runs where they are equally sure. Specks claim nothing.
+    Where two caps touch, the edge then runs where they are equally sure. Components under half of the
+    largest are left out.
     """
     inside = [_without_specks(_cut(window, width=width, height=height)) for window in windows]
     first, second = np.zeros((2, height, width), np.float32)
@@ -55,16 +58,16 @@ def settle(windows: Sequence[Window], scores: Sequence[float], *, width: int, he
     for nth, (window, score) in enumerate(zip(inside, scores, strict=True)):
         if score >= CONFIDENT:
             _claim(window, nth, first, second, owner)
-    settled = []
+    resolved = []
     for nth, window in enumerate(inside):
-        place = _place(window)
-        others = np.where(owner[place] == nth, second[place], first[place])
-        settled.append(replace(window, logits=window.logits - others))
-    return settled
+        here = _slices_of(window)
+        others = np.where(owner[here] == nth, second[here], first[here])
+        resolved.append(replace(window, logits=window.logits - others))
+    return resolved
 
 
 def _without_specks(window: Window) -> Window:
-    """The same with the logits turned around in parts that are too small beside the largest."""
+    """The same with negated logits in parts that are too small beside the largest."""
     held = (window.logits > 0).astype(np.uint8)
     if not held.any():
         return window
@@ -85,15 +88,15 @@ def _claim(
     owner: NDArray[np.int32],
 ) -> None:
     """Enters an instance's logits among the largest and second largest of each pixel, none below 0."""
-    place = _place(window)
-    best, next_best = first[place], second[place]
+    here = _slices_of(window)
+    best, next_best = first[here], second[here]
     wins = window.logits > best
     np.copyto(next_best, np.maximum(next_best, np.where(wins, best, window.logits)))
     np.copyto(best, window.logits, where=wins)
-    owner[place][wins] = nth
+    owner[here][wins] = nth
 
 
-def _place(window: Window) -> tuple[slice, slice]:
+def _slices_of(window: Window) -> tuple[slice, slice]:
     height, width = window.logits.shape
     return slice(window.y, window.y + height), slice(window.x, window.x + width)
 

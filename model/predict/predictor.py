@@ -15,10 +15,10 @@ from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.decode import DecodeConfig, Instances, decode
 from fairyring.model.network.fold import fold_batch_norms
 from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
-from fairyring.model.network.refine import draw
+from fairyring.model.network.refine import refine
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
-from fairyring.model.predict.overlaps import Window, distinct, settle
+from fairyring.model.predict.overlaps import Window, distinct, resolve_overlaps
 from fairyring.model.predict.tiles import Tile, tiles_of
 
 SLACK = 8.0
@@ -58,12 +58,12 @@ class Seen:
     width: int
     height: int
     pieces: list[tuple[Tile, Outputs, int]]
-    """A piece of it, what the network said of a batch, and the piece's place in the batch."""
+    """A piece of it, what the network said of a batch, and the piece's index in the batch."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """The instances of a piece of a photo, drawn at photo pixels."""
+    """The instances of a piece of a photo, refined to photo pixels."""
 
     tile: Tile
     scores: list[float]
@@ -96,40 +96,40 @@ class Predictor:
             for first in range(0, len(jobs), self.settings.batch):
                 batch = jobs[first : first + self.settings.batch]
                 inputs = np.zeros((len(batch), *shape, 3), np.uint8)
-                for place, (nth, tile) in enumerate(batch):
-                    inputs[place, : tile.height, : tile.width] = photos[nth][
+                for index, (nth, tile) in enumerate(batch):
+                    inputs[index, : tile.height, : tile.width] = photos[nth][
                         tile.y : tile.y + tile.height, tile.x : tile.x + tile.width
                     ]
                 origins = torch.tensor([(-tile.width / 2, -tile.height / 2) for _, tile in batch])
                 pixels = torch.from_numpy(inputs).to(self.device).permute(0, 3, 1, 2)
                 outputs = self.network(pixels, origins.to(self.device))
-                for place, (nth, tile) in enumerate(batch):
-                    seen[nth].pieces.append((tile, outputs, place))
+                for index, (nth, tile) in enumerate(batch):
+                    seen[nth].pieces.append((tile, outputs, index))
         return seen
 
     def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
         """The caps of a photo, in falling order of score."""
-        return self.tell(seen, self.draw(seen, settings))
+        return self.tell(seen, self.refine(seen, settings))
 
     @torch.inference_mode()
-    def draw(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Piece]:
+    def refine(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Piece]:
         """The instances of each piece of a photo; the first half of ``read``."""
         settings = settings or self.settings.decode
         least = max(settings.least_score, uncalibrated(self.settings.least_score, self.calibration))
         settings = structs.replace(settings, least_score=least)
         config = self.network.config
         pieces = []
-        for tile, outputs, place in seen.pieces:
-            instances = _distinct(decode(outputs, place, config, settings))
-            drawn = draw(
+        for tile, outputs, index in seen.pieces:
+            instances = _distinct(decode(outputs, index, config, settings))
+            refined = refine(
                 self.network.point_head,
                 outputs.point_maps,
                 instances,
-                image=place,
+                image=index,
                 mask_stride=config.mask_stride,
                 finest=self.settings.finest,
             )
-            windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in drawn]
+            windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in refined]
             pieces.append(Piece(tile=tile, scores=instances.scores.tolist(), windows=windows))
         return pieces
 
@@ -157,8 +157,8 @@ class Predictor:
 def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
     """The caps that a piece tells of a photo of so many pixels, with raw scores."""
     tile = piece.tile
-    settled = settle(piece.windows, piece.scores, width=tile.width, height=tile.height)
-    for score, window in zip(piece.scores, settled, strict=True):
+    resolved = resolve_overlaps(piece.windows, piece.scores, width=tile.width, height=tile.height)
+    for score, window in zip(piece.scores, resolved, strict=True):
         outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
         if not outline:
             continue
@@ -169,7 +169,7 @@ def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
 
 
 def _distinct(instances: Instances) -> Instances:
-    """Those that are caps of their own; the others need not be drawn."""
+    """Those that are caps of their own; the others need not be refined."""
     kept = distinct((instances.logits > 0).cpu().numpy(), instances.scores.tolist())
     chosen = torch.tensor(kept, dtype=torch.int64, device=instances.scores.device)
     return Instances(*(part[chosen] for part in instances))

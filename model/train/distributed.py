@@ -12,8 +12,8 @@ from torch import distributed
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where this process stands among all."""
+class Process:
+    """This process among those that train together."""
 
     rank: int = 0
     world: int = 1
@@ -31,11 +31,11 @@ class Place:
 
 
 @contextmanager
-def together(device: torch.device) -> Iterator[Place]:
-    """This process's place; with ``torchrun`` each gets a GPU of its own where ``device`` is one."""
+def together(device: torch.device) -> Iterator[Process]:
+    """This process; with ``torchrun`` each gets a GPU of its own where ``device`` is one."""
     world = int(os.environ.get("WORLD_SIZE", "1"))
     if world == 1:
-        yield Place(device=device)
+        yield Process(device=device)
         return
     on_gpu = device.type == "cuda"
     if on_gpu:
@@ -43,6 +43,6 @@ def together(device: torch.device) -> Iterator[Place]:
         torch.cuda.set_device(device)
     distributed.init_process_group("nccl" if on_gpu else "gloo")
     try:
-        yield Place(rank=int(os.environ["RANK"]), world=world, device=device)
+        yield Process(rank=int(os.environ["RANK"]), world=world, device=device)
     finally:
         distributed.destroy_process_group()

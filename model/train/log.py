@@ -35,7 +35,7 @@ def read(folder: Path) -> list[dict[str, Any]]:
 
 
 def cut_after(folder: Path, iteration: int) -> None:
-    """Forgets what came after ``iteration``: a run that goes on from there says it again."""
+    """Forgets what came after ``iteration``: a training that goes on from there writes it again."""
     kept = [entry for entry in read(folder) if entry["iteration"] <= iteration]
     (folder / LOG).write_text("".join(json.dumps(entry) + "\n" for entry in kept))
 

@@ -30,24 +30,24 @@ from fairyring.model.network.weights import save_weights
 from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import load_checkpoint, save_checkpoint
 from fairyring.model.train.data import Example
-from fairyring.model.train.distributed import Place, together
+from fairyring.model.train.distributed import Process, together
 from fairyring.model.train.loading import batches_of
 from fairyring.model.train.optimiser import freeze_statistics, rate_at, set_rate
 from fairyring.model.train.recipe import Recipe
-from fairyring.model.train.state import Run, new_network, start_run
+from fairyring.model.train.state import TrainingState, first_state, new_network
 from fairyring.model.train.validate import validate
 
-BEST, FINAL, RUN, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
+BEST, FINAL, CARD, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
 SEEDS = 1_000_003
-"""Apart from each other, the seeds of two runs' iterations do not meet."""
+"""Added to a seed for each iteration: so far apart, the iterations of two seeds never share one."""
 
 
 class TrainError(FairyringError):
     """Training that cannot go on; the sentence says what to change."""
 
 
-class Progress(Struct, frozen=True, kw_only=True):
-    """Where a run stands."""
+class TrainingProgress(Struct, frozen=True, kw_only=True):
+    """How far a training is."""
 
     iteration: int
     """Finished ones."""
@@ -57,13 +57,13 @@ class Progress(Struct, frozen=True, kw_only=True):
     """What is done now."""
 
 
-Report = Callable[[Progress], None]
-"""Called after every iteration; whatever it raises ends the run, which can be resumed."""
+Report = Callable[[TrainingProgress], None]
+"""Called after every iteration; whatever it raises ends the training, which can be resumed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrainResult:
-    """What a finished run left."""
+    """What a finished training leaves."""
 
     weights: Path
     figures: dict[str, Any]
@@ -78,7 +78,7 @@ class _Plan:
     checks: list[Example]
     out: Path
     card: dict[str, Any]
-    place: Place
+    process: Process
     report: Report
 
 
@@ -112,37 +112,39 @@ def train(
     ``base`` is trained further where given (and changed), else a new network starts from ImageNet weights
     if they are installed. ``workers`` processes cut crops. ``notes`` go into ``run.json`` and the weights'
     card, ``labels`` into ``labels.json``. The same examples, recipe and seed give the same weights on one
-    machine, however often the run was resumed.
+    machine, however often it was resumed.
 
     Raises TrainError, DataError, CheckpointError, WeightsError.
     """
-    with together(device) as place, _faded_is_nought():
+    with together(device) as process, _faded_is_nought():
         torch.manual_seed(recipe.seed)
-        run = start_run(base or new_network(recipe), recipe, device=place.device)
+        state = first_state(base or new_network(recipe), recipe, device=process.device)
         card = {"recipe": msgspec.to_builtins(recipe), "images": len(examples), **(notes or {})}
         checks = list(validation)[: recipe.validate_images]
         if not any(example.caps for example in checks):
             checks = []
-        plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, place=place, report=report)
-        _prepare(run, plan, labels, resume=resume)
-        step = _Step(run.network)
+        plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, process=process, report=report)
+        _prepare(state, plan, labels, resume=resume)
+        step = _Step(state.network)
         # A process whose crops show no cap uses neither the kernels nor the points.
-        trained = DistributedDataParallel(step, find_unused_parameters=True) if place.world > 1 else step
+        trained = DistributedDataParallel(step, find_unused_parameters=True) if process.world > 1 else step
         try:
             if resume:
-                _catch_up(run, plan)
-            for batches in batches_of(examples, recipe, first=run.iteration, workers=workers, place=place):
-                losses = _iterate(run, trained, batches, plan)
-                _afterwards(run, plan, losses)
-                report(_progress(run, plan, losses, "training"))
+                _catch_up(state, plan)
+            for batches in batches_of(
+                examples, recipe, first=state.iteration, workers=workers, process=process
+            ):
+                losses = _iterate(state, trained, batches, plan)
+                _afterwards(state, plan, losses)
+                report(_progress(state, plan, losses, "training"))
         except BaseException:
-            if place.leads and run.iteration and not run.stepping:
-                save_checkpoint(out, run.state())
+            if process.leads and state.iteration and not state.stepping:
+                save_checkpoint(out, state.as_checkpoint())
             raise
-        if place.leads:
-            _finish(run, plan)
-        place.wait()
-        return TrainResult(weights=out / FINAL, figures=run.best)
+        if process.leads:
+            _finish(state, plan)
+        process.wait()
+        return TrainResult(weights=out / FINAL, figures=state.best)
 
 
 @contextmanager
@@ -155,61 +157,61 @@ def _faded_is_nought() -> Iterator[None]:
         torch.set_flush_denormal(False)
 
 
-def _prepare(run: Run, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
-    """The output folder: empty for a new run, with its checkpoint for one that goes on."""
-    out, place = plan.out, plan.place
+def _prepare(state: TrainingState, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
+    """The output folder: empty for a new training, with its checkpoint for one that goes on."""
+    out, process = plan.out, plan.process
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise TrainError(f"{out} cannot be made: {error.strerror or error}.") from error
     if resume:
-        state = load_checkpoint(out, device=place.device)
+        saved = load_checkpoint(out, device=process.device)
         try:
-            run.load(state)
+            state.restore(saved)
         except (KeyError, TypeError, ValueError, RuntimeError) as error:
             raise TrainError(
-                f"The run in {out} had another recipe; resume with that in {out / RUN}."
+                f"The training in {out} had another recipe; resume with that in {out / CARD}."
             ) from error
-    elif any(out.iterdir()) and place.leads:
-        raise TrainError(f"{out} is not empty; give a new folder, or --resume to go on with that run.")
-    place.wait()
-    if place.leads:
-        train_log.cut_after(out, run.iteration)
-        (out / RUN).write_bytes(msgspec.json.format(msgspec.json.encode(plan.card), indent=2))
+    elif any(out.iterdir()) and process.leads:
+        raise TrainError(f"{out} is not empty; give a new folder, or --resume to go on with that state.")
+    process.wait()
+    if process.leads:
+        train_log.cut_after(out, state.iteration)
+        (out / CARD).write_bytes(msgspec.json.format(msgspec.json.encode(plan.card), indent=2))
         if labels is not None:
             (out / LABELS).write_bytes(labels)
 
 
-def _iterate(run: Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:
+def _iterate(state: TrainingState, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:
     """One step of the optimiser; returns what the log says of it."""
-    recipe, place = plan.recipe, plan.place
+    recipe, process = plan.recipe, plan.process
     began = time.monotonic()
-    # Everything drawn in this iteration depends on its number alone, so that a resumed run draws the same.
-    torch.manual_seed((recipe.seed * SEEDS + run.iteration) * place.world + place.rank)
-    run.network.train()
-    freeze_statistics(run.network)
-    rate = rate_at(run.iteration, recipe)
-    set_rate(run.optimiser, rate)
-    run.optimiser.zero_grad(set_to_none=True)
+    # All randomness of an iteration depends on its number alone, so that a resumed training repeats it.
+    torch.manual_seed((recipe.seed * SEEDS + state.iteration) * process.world + process.rank)
+    state.network.train()
+    freeze_statistics(state.network)
+    rate = rate_at(state.iteration, recipe)
+    set_rate(state.optimiser, rate)
+    state.optimiser.zero_grad(set_to_none=True)
     parts = []
     for batch in batches:
-        with torch.autocast(place.device.type, torch.bfloat16, enabled=recipe.bf16):
-            losses = step(batch.to(place.device))
+        with torch.autocast(process.device.type, torch.bfloat16, enabled=recipe.bf16):
+            losses = step(batch.to(process.device))
         (losses.total / len(batches)).backward()
         parts.append(torch.stack([term.detach() for term in losses]))
     category, mask, points = torch.stack(parts).mean(0).tolist()
-    norm = float(nn.utils.clip_grad_norm_(run.network.parameters(), recipe.clip))
+    norm = float(nn.utils.clip_grad_norm_(state.network.parameters(), recipe.clip))
     if not math.isfinite(norm) or not math.isfinite(category + mask + points):
         raise TrainError(
-            f"The loss is no number any more at iteration {run.iteration}; "
+            f"The loss is no number any more at iteration {state.iteration}; "
             "lower the rate, or lengthen the warm-up, and resume."
         )
-    run.stepping = True
-    run.optimiser.step()
-    if run.average is not None:
-        run.average.update_parameters(run.network)
-    run.iteration += 1
-    run.stepping = False
+    state.stepping = True
+    state.optimiser.step()
+    if state.average is not None:
+        state.average.update_parameters(state.network)
+    state.iteration += 1
+    state.stepping = False
     return {
         "category": category,
         "mask": mask,
@@ -220,62 +222,64 @@ def _iterate(run: Run, step: nn.Module, batches: list[Batch], plan: _Plan) -> di
     }
 
 
-def _afterwards(run: Run, plan: _Plan, losses: dict[str, float]) -> None:
+def _afterwards(state: TrainingState, plan: _Plan, losses: dict[str, float]) -> None:
     """Logs an iteration; validates and saves where it is time to."""
-    if plan.place.leads:
-        train_log.append(plan.out, [{"iteration": run.iteration, **losses}])
-        if plan.checks and _is_time(run, plan, plan.recipe.validate_every):
-            _check(run, plan, losses)
-        if _is_time(run, plan, plan.recipe.save_every):
-            save_checkpoint(plan.out, run.state())
+    if plan.process.leads:
+        train_log.append(plan.out, [{"iteration": state.iteration, **losses}])
+        if plan.checks and _is_time(state, plan, plan.recipe.validate_every):
+            _check(state, plan, losses)
+        if _is_time(state, plan, plan.recipe.save_every):
+            save_checkpoint(plan.out, state.as_checkpoint())
             train_log.draw_curves(plan.out)
-    plan.place.wait()
+    plan.process.wait()
 
 
-def _is_time(run: Run, plan: _Plan, every: int) -> bool:
-    return run.iteration == plan.recipe.iterations or run.iteration % every == 0
+def _is_time(state: TrainingState, plan: _Plan, every: int) -> bool:
+    return state.iteration == plan.recipe.iterations or state.iteration % every == 0
 
 
-def _catch_up(run: Run, plan: _Plan) -> None:
-    """The validation that the run was stopped in."""
-    due = plan.checks and run.checked < run.iteration and _is_time(run, plan, plan.recipe.validate_every)
-    if due and plan.place.leads:
+def _catch_up(state: TrainingState, plan: _Plan) -> None:
+    """Does the validation that the training was stopped in."""
+    due = (
+        plan.checks and state.checked < state.iteration and _is_time(state, plan, plan.recipe.validate_every)
+    )
+    if due and plan.process.leads:
         losses = [entry for entry in train_log.read(plan.out) if "rate" in entry]
-        _check(run, plan, losses[-1])
-    plan.place.wait()
+        _check(state, plan, losses[-1])
+    plan.process.wait()
 
 
-def _check(run: Run, plan: _Plan, losses: dict[str, float]) -> None:
+def _check(state: TrainingState, plan: _Plan, losses: dict[str, float]) -> None:
     """Validates, and keeps the weights where they are the best so far."""
 
     def say(_done: int, _total: int, what: str) -> None:
-        plan.report(_progress(run, plan, losses, what))
+        plan.report(_progress(state, plan, losses, what))
 
-    validation = validate(run.kept, plan.checks, device=plan.place.device, progress=say)
-    run.kept.calibration.copy_(torch.tensor(validation.calibration))
+    validation = validate(state.kept, plan.checks, device=plan.process.device, progress=say)
+    state.kept.calibration.copy_(torch.tensor(validation.calibration))
     found = {name: value for name, value in validation.figures.items() if isinstance(value, float)}
-    train_log.append(plan.out, [{"iteration": run.iteration, **found}])
-    run.checked = run.iteration
-    if not run.best or found["AP"] > run.best["AP"]:
-        run.best = {"iteration": run.iteration, **found}
-        _save(run, plan, plan.out / BEST)
+    train_log.append(plan.out, [{"iteration": state.iteration, **found}])
+    state.checked = state.iteration
+    if not state.best or found["AP"] > state.best["AP"]:
+        state.best = {"iteration": state.iteration, **found}
+        _save(state, plan, plan.out / BEST)
 
 
-def _finish(run: Run, plan: _Plan) -> None:
+def _finish(state: TrainingState, plan: _Plan) -> None:
     if (plan.out / BEST).exists():
         shutil.copyfile(plan.out / BEST, plan.out / FINAL)
     else:
-        _save(run, plan, plan.out / FINAL)
+        _save(state, plan, plan.out / FINAL)
 
 
-def _save(run: Run, plan: _Plan, path: Path) -> None:
-    figures = {"iteration": run.iteration, "validation": run.best}
-    save_weights(path, run.kept.state_dict(), run.network.config, card={**plan.card, **figures})
+def _save(state: TrainingState, plan: _Plan, path: Path) -> None:
+    figures = {"iteration": state.iteration, "validation": state.best}
+    save_weights(path, state.kept.state_dict(), state.network.config, card={**plan.card, **figures})
 
 
-def _progress(run: Run, plan: _Plan, losses: dict[str, float], what: str) -> Progress:
-    return Progress(
-        iteration=run.iteration,
+def _progress(state: TrainingState, plan: _Plan, losses: dict[str, float], what: str) -> TrainingProgress:
+    return TrainingProgress(
+        iteration=state.iteration,
         iterations=plan.recipe.iterations,
         loss=losses["category"] + DICE_WEIGHT * losses["mask"] + losses["points"],
         what=what,

@@ -57,7 +57,7 @@ def set_rate(optimiser: torch.optim.Optimizer, rate: float) -> None:
 
 
 def average_of(network: PRSOLOv2, decay: float) -> AveragedModel:
-    """An exponential moving average of the weights, which a short run can rely on, too."""
+    """An exponential moving average of the weights, which a short training can rely on, too."""
 
     def follow(average: Tensor, value: Tensor, count: Tensor | int) -> Tensor:
         return average + (value - average) * max(1 - decay, 1 / (1 + int(count) / AVERAGED_FROM))

@@ -17,7 +17,7 @@ from fairyring.model.train.recipe import Recipe
 
 
 @dataclass(kw_only=True)
-class Run:
+class TrainingState:
     """What changes from iteration to iteration."""
 
     network: PRSOLOv2
@@ -35,8 +35,8 @@ class Run:
         """The network whose weights count: the average where there is one."""
         return self.network if self.average is None else self.average.module  # pyright: ignore
 
-    def state(self) -> dict[str, Any]:
-        """For a checkpoint."""
+    def as_checkpoint(self) -> dict[str, Any]:
+        """All of it, as a checkpoint keeps it."""
         return {
             "network": self.network.state_dict(),
             "optimiser": self.optimiser.state_dict(),
@@ -46,15 +46,15 @@ class Run:
             "checked": self.checked,
         }
 
-    def load(self, state: dict[str, Any]) -> None:
-        """From a checkpoint."""
-        self.network.load_state_dict(state["network"])
-        self.optimiser.load_state_dict(state["optimiser"])
+    def restore(self, saved: dict[str, Any]) -> None:
+        """Goes back to where ``as_checkpoint`` was called."""
+        self.network.load_state_dict(saved["network"])
+        self.optimiser.load_state_dict(saved["optimiser"])
         if self.average is not None:
-            self.average.load_state_dict(state["average"])
-        self.iteration = state["iteration"]
-        self.best = msgspec.json.decode(state["best"])
-        self.checked = state.get("checked", self.iteration)
+            self.average.load_state_dict(saved["average"])
+        self.iteration = saved["iteration"]
+        self.best = msgspec.json.decode(saved["best"])
+        self.checked = saved.get("checked", self.iteration)
 
 
 def new_network(recipe: Recipe) -> PRSOLOv2:
@@ -66,11 +66,11 @@ def new_network(recipe: Recipe) -> PRSOLOv2:
     return network
 
 
-def start_run(network: PRSOLOv2, recipe: Recipe, *, device: torch.device) -> Run:
-    """The first state of a run that trains this very network."""
+def first_state(network: PRSOLOv2, recipe: Recipe, *, device: torch.device) -> TrainingState:
+    """The state before the first iteration; this very network is trained."""
     freeze_stages(network, recipe.frozen)
     network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
-    return Run(
+    return TrainingState(
         network=network,
         optimiser=optimiser_of(network, recipe),
         average=average_of(network, recipe.average) if recipe.average else None,

@@ -17,8 +17,7 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.shipped import RECIPE
 from fairyring.model.train.data import Example
-from fairyring.model.train.loop import FINAL, train
-from fairyring.model.train.loop import Progress as Step
+from fairyring.model.train.loop import FINAL, TrainingProgress, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
 
 PAPER_GRIDS = (40, 36, 24, 16, 12)
@@ -90,7 +89,7 @@ def ablation_rows(
 def _train(
     name: str, recipe: Recipe, examples: list[Example], out: Path, *, device: torch.device, progress: Progress
 ) -> None:
-    def report(step: Step) -> None:
+    def report(step: TrainingProgress) -> None:
         progress(step.iteration, step.iterations, f"training {name}")
 
     resume = (out / "last.pt").exists()

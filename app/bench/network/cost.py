@@ -31,11 +31,11 @@ def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, An
     device = predictor.device
     reference = timed(lambda: _backbone_alone(predictor, photo), device)
     (seen,) = predictor.see([photo])
-    pieces = predictor.draw(seen)
+    pieces = predictor.refine(seen)
     found = predictor.tell(seen, pieces)
     times = {
         "network: features, heads": timed(lambda: predictor.see([photo]), device),
-        "instances and their edges": timed(lambda: predictor.draw(seen), device),
+        "instances and their edges": timed(lambda: predictor.refine(seen), device),
         "outlines, and whose pixel it is": timed(lambda: predictor.tell(seen, pieces), device),
         "whole outlines and centres": timed(lambda: _centres(found, photo), device),
         "storing": _storing(photos, found),

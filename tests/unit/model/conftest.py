@@ -8,24 +8,24 @@ import pytest
 import torch
 
 from fairyring.model.train.data import Example
-from fairyring.model.train.loop import Progress, TrainResult, train
+from fairyring.model.train.loop import TrainingProgress, TrainResult, train
 from tests.support.discs import RECIPE, drawn_examples
 
 
 @dataclass(frozen=True)
 class Learnt:
-    """The run and what it was about."""
+    """The training and what it was about."""
 
     examples: list[Example]
     result: TrainResult
-    progress: list[Progress]
+    progress: list[TrainingProgress]
 
 
 @pytest.fixture(scope="session")
 def learnt(tmp_path_factory: pytest.TempPathFactory) -> Learnt:
     folder = tmp_path_factory.mktemp("learnt")
     examples = drawn_examples(folder)
-    progress: list[Progress] = []
+    progress: list[TrainingProgress] = []
     result = train(
         examples,
         examples,

@@ -12,7 +12,7 @@ from fairyring.model.network.boxes import boxes_of
 from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.decode import DecodeConfig, decode
 from fairyring.model.network.pr_solov2 import Outputs
-from fairyring.model.network.refine import draw
+from fairyring.model.network.refine import refine
 
 CONFIG = NetworkConfig(reduction=1)
 SQUARES = ((slice(2, 8), slice(3, 11)), (slice(20, 30), slice(18, 26)))
@@ -53,7 +53,7 @@ def test_nothing_in_a_photo_is_no_instances() -> None:
     found = decode(outputs, 0, CONFIG, DecodeConfig())
     assert found.scores.shape == (0,)
     assert found.logits.shape == (0, 32, 32)
-    assert draw(None, None, found, image=0, mask_stride=4) == []
+    assert refine(None, None, found, image=0, mask_stride=4) == []
 
 
 def test_cells_that_are_not_sure_enough_are_left_out() -> None:
@@ -110,7 +110,7 @@ def test_without_points_logits_are_enlarged() -> None:
     outputs = scene({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
     found = decode(outputs, 1, CONFIG, DecodeConfig())
     canvas = torch.zeros(2, 128, 128, dtype=torch.bool)
-    for nth, (x, y, logits) in enumerate(draw(None, None, found, image=1, mask_stride=4)):
+    for nth, (x, y, logits) in enumerate(refine(None, None, found, image=1, mask_stride=4)):
         for row, column in (logits > 0).nonzero().tolist():
             canvas[nth, y + row, x + column] = True
     assert boxes_of(canvas).tolist() == [[72, 80, 32, 40], [12, 8, 32, 24]]

@@ -10,7 +10,7 @@ from torch import Tensor
 
 from fairyring.model.network.decode import Instances
 from fairyring.model.network.point_rend import PointHead, PointMaps, Queries
-from fairyring.model.network.refine import draw
+from fairyring.model.network.refine import refine
 
 DISCS = torch.tensor([[70.3, 60.8, 25.0], [105.0, 40.5, 14.2], [3.0, 100.0, 20.0]])
 """x, y, radius, photo pixels, in a photo of 160 × 128; the last reaches beyond it."""
@@ -46,13 +46,13 @@ def instances(stride: int) -> Instances:
 
 
 @pytest.mark.parametrize("stride", [4, 8])
-def test_edges_are_drawn_where_the_head_says(stride: int) -> None:
+def test_edges_run_where_the_head_says(stride: int) -> None:
     head = Knowing()
     maps = cast("PointMaps", object())
-    drawn = draw(cast("PointHead", head), maps, instances(stride), image=5, mask_stride=stride)
+    refined = refine(cast("PointHead", head), maps, instances(stride), image=5, mask_stride=stride)
     rows, columns = torch.meshgrid(torch.arange(128), torch.arange(160), indexing="ij")
     middles = torch.stack([columns, rows], -1).reshape(-1, 2) + 0.5
-    for disc, (x, y, logits) in zip(DISCS, drawn, strict=True):
+    for disc, (x, y, logits) in zip(DISCS, refined, strict=True):
         true = (logits_at(disc.expand(len(middles), 3), middles) > 0).reshape(128, 160)
         told = torch.zeros_like(true)
         for row, column in (logits > 0).nonzero().tolist():
@@ -63,7 +63,7 @@ def test_edges_are_drawn_where_the_head_says(stride: int) -> None:
 
 def test_points_are_the_middles_of_pixels_of_each_size_in_turn() -> None:
     head = Knowing()
-    draw(cast("PointHead", head), cast("PointMaps", object()), instances(8), image=5, mask_stride=8)
+    refine(cast("PointHead", head), cast("PointMaps", object()), instances(8), image=5, mask_stride=8)
     strides = []
     for queries in head.asked:
         (stride,) = {s for s in (1, 2, 4) if bool(((queries.points / s) % 1 == 0.5).all())}
@@ -77,7 +77,7 @@ def test_points_are_the_middles_of_pixels_of_each_size_in_turn() -> None:
 def test_boxes_are_those_of_the_coarse_masks() -> None:
     head = Knowing()
     given: Any = instances(4)
-    draw(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=4)
+    refine(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=4)
     told = {
         tuple(kernel): tuple(box)
         for q in head.asked
@@ -94,7 +94,7 @@ def test_boxes_are_those_of_the_coarse_masks() -> None:
 
 def test_only_the_unclear_are_asked_again() -> None:
     head = Knowing()
-    draw(cast("PointHead", head), cast("PointMaps", object()), instances(4), image=0, mask_stride=4)
+    refine(cast("PointHead", head), cast("PointMaps", object()), instances(4), image=0, mask_stride=4)
     for queries in head.asked:
         for kernel in DISCS:
             mine = (queries.kernels == kernel).all(1)
@@ -106,7 +106,7 @@ def test_only_the_unclear_are_asked_again() -> None:
 def test_points_finer_than_asked_for_are_left_to_interpolation() -> None:
     head = Knowing()
     maps = cast("PointMaps", object())
-    draw(cast("PointHead", head), maps, instances(8), image=0, mask_stride=8, finest=2)
+    refine(cast("PointHead", head), maps, instances(8), image=0, mask_stride=8, finest=2)
     assert all(bool(((queries.points / 2) % 0.5 == 0).all()) for queries in head.asked)
     assert not any(bool((queries.points % 1 == 0.5).any()) for queries in head.asked)
 
@@ -114,7 +114,7 @@ def test_points_finer_than_asked_for_are_left_to_interpolation() -> None:
 def test_instances_that_are_hardly_caps_are_not_asked_about() -> None:
     head = Knowing()
     given = instances(4)._replace(scores=torch.tensor([0.9, 0.31, 0.29]))
-    drawn = draw(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=4)
+    refined = refine(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=4)
     asked = {tuple(kernel) for queries in head.asked for kernel in queries.kernels.tolist()}
     assert asked == {tuple(disc) for disc in DISCS[:2].tolist()}
-    assert len(drawn) == 3
+    assert len(refined) == 3

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fairyring.model.predict.overlaps import CONFIDENT, Window, distinct, settle
+from fairyring.model.predict.overlaps import CONFIDENT, Window, distinct, resolve_overlaps
 
 
 def window(x: int, y: int, values: list[list[float]]) -> Window:
@@ -18,27 +18,29 @@ def window(x: int, y: int, values: list[list[float]]) -> Window:
 def test_a_pixel_goes_to_whoever_is_surer() -> None:
     first = window(0, 0, [[4.0, 3.0, 1.0]])
     second = window(1, 0, [[1.0, 2.5, 4.0]])
-    a, b = settle([first, second], [0.9, 0.8], width=5, height=1)
+    a, b = resolve_overlaps([first, second], [0.9, 0.8], width=5, height=1)
     assert a.logits.tolist() == [[4.0, 2.0, -1.5]]
     assert b.logits.tolist() == [[-2.0, 1.5, 4.0]]
 
 
 def test_logits_below_nought_take_nothing() -> None:
-    a, b = settle([window(0, 0, [[4.0, 1.0]]), window(0, 0, [[-3.0, 2.0]])], [0.9, 0.8], width=2, height=1)
+    a, b = resolve_overlaps(
+        [window(0, 0, [[4.0, 1.0]]), window(0, 0, [[-3.0, 2.0]])], [0.9, 0.8], width=2, height=1
+    )
     assert a.logits.tolist() == [[4.0, -1.0]]
     assert b.logits.tolist() == [[-7.0, 1.0]]
 
 
 def test_the_unsure_take_nothing_from_others() -> None:
     unsure = CONFIDENT - 0.01
-    a, b = settle([window(0, 0, [[2.0]]), window(0, 0, [[5.0]])], [0.9, unsure], width=1, height=1)
+    a, b = resolve_overlaps([window(0, 0, [[2.0]]), window(0, 0, [[5.0]])], [0.9, unsure], width=1, height=1)
     assert a.logits.tolist() == [[2.0]]
     assert b.logits.tolist() == [[3.0]]
 
 
 def test_windows_are_cut_to_the_photo() -> None:
     values = np.arange(12, dtype=np.float32).reshape(3, 4).tolist()
-    (cut,) = settle([window(-1, 1, values)], [0.9], width=2, height=3)
+    (cut,) = resolve_overlaps([window(-1, 1, values)], [0.9], width=2, height=3)
     assert (cut.x, cut.y) == (0, 1)
     assert cut.logits.tolist() == [[1.0, 2.0], [5.0, 6.0]]
 
@@ -46,25 +48,25 @@ def test_windows_are_cut_to_the_photo() -> None:
 def test_a_window_outside_of_the_photo_is_left_empty() -> None:
     ones = [[1.0, 1.0], [1.0, 1.0]]
     places = [(-2, 0), (5, 0), (9, 9), (0, -7), (0, 4)]
-    for cut in settle([window(x, y, ones) for x, y in places], [0.9] * 5, width=5, height=4):
+    for cut in resolve_overlaps([window(x, y, ones) for x, y in places], [0.9] * 5, width=5, height=4):
         assert cut.logits.size == 0
         assert 0 <= cut.x <= 5
         assert 0 <= cut.y <= 4
 
 
 def test_no_windows_are_none() -> None:
-    assert settle([], [], width=4, height=4) == []
+    assert resolve_overlaps([], [], width=4, height=4) == []
 
 
 def test_a_speck_claims_nothing_and_a_second_part_half_as_large_does() -> None:
     cap = window(0, 0, [[1.0] * 6])
     two_parts = [[-1.0, 3.0, -1.0, 3.0, 3.0, 3.0]]
-    settled, thief = settle([cap, window(0, 0, two_parts)], [0.9, 0.8], width=6, height=1)
-    assert settled.logits.tolist() == [[1.0, 1.0, 1.0, -2.0, -2.0, -2.0]]
+    resolved, thief = resolve_overlaps([cap, window(0, 0, two_parts)], [0.9, 0.8], width=6, height=1)
+    assert resolved.logits.tolist() == [[1.0, 1.0, 1.0, -2.0, -2.0, -2.0]]
     assert thief.logits.tolist() == [[-2.0, -4.0, -2.0, 2.0, 2.0, 2.0]]
     wider = [[3.0, 3.0, -1.0, 3.0, 3.0, 3.0]]
-    settled, _ = settle([cap, window(0, 0, wider)], [0.9, 0.8], width=6, height=1)
-    assert settled.logits.tolist() == [[-2.0, -2.0, 1.0, -2.0, -2.0, -2.0]]
+    resolved, _ = resolve_overlaps([cap, window(0, 0, wider)], [0.9, 0.8], width=6, height=1)
+    assert resolved.logits.tolist() == [[-2.0, -2.0, 1.0, -2.0, -2.0, -2.0]]
 
 
 def by_loops(
@@ -79,12 +81,12 @@ def by_loops(
                 if 0 <= one.y + row < height and 0 <= one.x + column < width:
                     canvas[one.y + row, one.x + column] = value
         whole.append(canvas)
-    settled = []
+    resolved = []
     for nth, canvas in enumerate(whole):
         others = [o for m, o in enumerate(whole) if m != nth and scores[m] >= CONFIDENT]
         most = np.nanmax(np.stack([np.zeros_like(canvas), *others]), axis=0)
-        settled.append(canvas - most)
-    return settled
+        resolved.append(canvas - most)
+    return resolved
 
 
 windows = st.tuples(
@@ -105,8 +107,8 @@ def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int,
         patch.setattr(
             "fairyring.model.predict.overlaps.LEAST_PART", 0.0
         )  # specks, too, as these are nothing else
-        settled = settle(given_windows, scores, width=8, height=7)
-    for one, whole in zip(settled, expected, strict=True):
+        resolved = resolve_overlaps(given_windows, scores, width=8, height=7)
+    for one, whole in zip(resolved, expected, strict=True):
         height, width = one.logits.shape
         np.testing.assert_array_equal(one.logits, whole[one.y : one.y + height, one.x : one.x + width])
         assert np.isfinite(whole).sum() == one.logits.size

@@ -1,4 +1,4 @@
-"""Predictions of a network that knows drawn discs: whole, once each, wherever the tiles are cut."""
+"""Predictions of a network that knows refined discs: whole, once each, wherever the tiles are cut."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pycocotools import mask as pycocotools_mask
 from fairyring.model.geometry.raster import iou_matrix, rle_of_outline
 from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.network.decode import DecodeConfig, Instances
-from fairyring.model.network.refine import Drawn
+from fairyring.model.network.refine import RefinedMask
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
@@ -147,12 +147,12 @@ def test_a_cap_whose_middle_is_on_the_seam_is_neither_lost_nor_told_twice(
     middles = iter([96 + shift, 96 - 64 - shift])
     y, x = torch.meshgrid(torch.arange(SIDE) + 0.5, torch.arange(SIDE) + 0.5, indexing="ij")
 
-    def drawn(*_: object, **__: object) -> list[Drawn]:
-        return [Drawn(0, 0, 20 - torch.hypot(x - next(middles), y - 64))]
+    def refined(*_: object, **__: object) -> list[RefinedMask]:
+        return [RefinedMask(0, 0, 20 - torch.hypot(x - next(middles), y - 64))]
 
     found = Instances(torch.tensor([0.9]), torch.zeros(1, 32), torch.ones(1, 32, 32))
     monkeypatch.setattr("fairyring.model.predict.predictor.decode", lambda *_: found)
-    monkeypatch.setattr("fairyring.model.predict.predictor.draw", drawn)
+    monkeypatch.setattr("fairyring.model.predict.predictor.refine", refined)
     (cap,) = Predictor(tiny(), device=CPU).detect(np.zeros((SIDE, 192, 3), np.uint8))
     assert middle(cap) == pytest.approx((96, 64), abs=0.5)
 

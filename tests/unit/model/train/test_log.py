@@ -1,4 +1,4 @@
-"""The log of a run and its curves."""
+"""The log of a training and its curves."""
 
 from __future__ import annotations
 

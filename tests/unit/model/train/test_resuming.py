@@ -15,9 +15,9 @@ from fairyring.model.network.weights import digest_of
 from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import CheckpointError, load_checkpoint
 from fairyring.model.train.data import Example
-from fairyring.model.train.loop import Progress, TrainError, train
+from fairyring.model.train.loop import TrainError, TrainingProgress, train
 from tests.support.discs import SHORT
-from tests.support.small_runs import CPU, environment, logged, run
+from tests.support.small_trainings import CPU, digest_after_training, environment, logged
 
 
 class StopError(Exception):
@@ -25,7 +25,7 @@ class StopError(Exception):
 
 
 def stop_after(iteration: int) -> Any:
-    def report(progress: Progress) -> None:
+    def report(progress: TrainingProgress) -> None:
         if progress.iteration == iteration:
             raise StopError
 
@@ -33,11 +33,11 @@ def stop_after(iteration: int) -> Any:
 
 
 def test_a_run_stopped_and_resumed_is_one_that_never_stopped(examples: list[Example], tmp_path: Path) -> None:
-    through = run(examples, tmp_path / "through")
+    through = digest_after_training(examples, tmp_path / "through")
     with pytest.raises(StopError):
-        run(examples, tmp_path / "halves", report=stop_after(3))
+        digest_after_training(examples, tmp_path / "halves", report=stop_after(3))
     assert load_checkpoint(tmp_path / "halves", device=CPU)["iteration"] == 3
-    assert run(examples, tmp_path / "halves", resume=True) == through
+    assert digest_after_training(examples, tmp_path / "halves", resume=True) == through
     losses = [logged(tmp_path / name, "mask") for name in ("through", "halves")]
     assert losses[0] == losses[1]
     assert [iteration for iteration, _ in losses[0]] == [1, 2, 3, 4, 5]
@@ -75,14 +75,16 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(examples: list[Example], 
     # A line of the log may be half written.
     with (out / train_log.LOG).open("a") as log:
         log.write('{"iteration": 9')
-    assert run(examples, out, resume=True) == run(examples, tmp_path / "through")
+    assert digest_after_training(examples, out, resume=True) == digest_after_training(
+        examples, tmp_path / "through"
+    )
     assert logged(out, "category") == logged(tmp_path / "through", "category")
 
 
 def test_a_validation_that_was_stopped_is_made_up_for(examples: list[Example], tmp_path: Path) -> None:
     recipe = replace(SHORT, iterations=2, validate_every=1)
 
-    def stop_in_the_last(progress: Progress) -> None:
+    def stop_in_the_last(progress: TrainingProgress) -> None:
         if progress.iteration == 2 and progress.what.startswith("validating"):
             raise StopError
 
@@ -101,27 +103,27 @@ def test_a_folder_in_use_is_refused_and_left_alone(examples: list[Example], tmp_
     out.mkdir()
     (out / "thesis.txt").write_text("all of it")
     with pytest.raises(TrainError, match="out is not empty; give a new folder, or --resume"):
-        run(examples, out)
+        digest_after_training(examples, out)
     assert [path.name for path in out.iterdir()] == ["thesis.txt"]
     with pytest.raises(CheckpointError, match="nothing to resume"):
-        run(examples, out, resume=True)
+        digest_after_training(examples, out, resume=True)
     with pytest.raises(TrainError, match=r"thesis\.txt cannot be made"):
-        run(examples, out / "thesis.txt")
+        digest_after_training(examples, out / "thesis.txt")
 
 
 def test_a_run_of_another_recipe_is_not_resumed(examples: list[Example], tmp_path: Path) -> None:
     out = tmp_path / "out"
-    run(examples, out, replace(SHORT, iterations=1))
+    digest_after_training(examples, out, replace(SHORT, iterations=1))
     wider = replace(SHORT, network=replace(SHORT.network, kernel_channels=64))
     for other in (wider, replace(SHORT, optimiser="sgd", frozen=2)):
         with pytest.raises(TrainError, match="had another recipe"):
-            run(examples, out, other, resume=True)
+            digest_after_training(examples, out, other, resume=True)
 
 
 def test_a_finished_run_that_is_resumed_is_finished(examples: list[Example], tmp_path: Path) -> None:
     recipe = replace(SHORT, iterations=2)
-    first = run(examples, tmp_path / "out", recipe)
-    assert run(examples, tmp_path / "out", recipe, resume=True) == first
+    first = digest_after_training(examples, tmp_path / "out", recipe)
+    assert digest_after_training(examples, tmp_path / "out", recipe, resume=True) == first
     longer = replace(SHORT, iterations=3)
-    run(examples, tmp_path / "out", longer, resume=True)
+    digest_after_training(examples, tmp_path / "out", longer, resume=True)
     assert [iteration for iteration, _ in logged(tmp_path / "out", "rate")] == [1, 2, 3]

@@ -10,7 +10,7 @@ import pytest
 
 from fairyring.model.network.weights import load_weights
 from fairyring.model.train.loop import FINAL
-from tests.support.small_runs import environment, logged
+from tests.support.small_trainings import environment, logged
 
 TOGETHER = """
 import sys

@@ -18,7 +18,7 @@ from tests.support.discs import SHORT
 CPU = torch.device("cpu")
 
 
-def run(examples: list[Example], out: Path, recipe: Recipe = SHORT, **options: Any) -> str:
+def digest_after_training(examples: list[Example], out: Path, recipe: Recipe = SHORT, **options: Any) -> str:
     """Trains and returns the digest of the weights."""
     result = train(examples, [], out, recipe=recipe, device=CPU, workers=0, **options)
     assert result.weights == out / FINAL
@@ -31,6 +31,6 @@ def logged(out: Path, key: str) -> list[tuple[int, float]]:
 
 
 def environment(**more: str) -> dict[str, str]:
-    """Of a training in a process of its own."""
+    """The environment of a training in a process of its own."""
     root = Path(__file__).parents[2]
     return {**os.environ, "PYTHONPATH": str(root), "OMP_NUM_THREADS": "1", **more}
