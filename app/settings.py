@@ -12,6 +12,7 @@ import msgspec
 from msgspec import Struct
 
 from fairyring.model.errors import FairyringError
+from fairyring.storage.folder import SETTINGS
 
 ENVIRONMENT_PREFIX = "FAIRYRING_"
 TABLE = "serve"
@@ -46,7 +47,7 @@ def load_settings(
     """
     if file is not None and not file.exists():
         raise SettingsError(f"{file} does not exist; give a TOML file.")
-    file = file or project_folder / "fairyring.toml"
+    file = file or project_folder / SETTINGS
     sources = (
         (str(file), _from_file(file)),
         ("the environment", _from_environment(environment)),

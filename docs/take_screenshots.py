@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fairyring.app.bench.browser.tab import Tab, centroid, chromium
 from fairyring.app.bench.serving import Server
-from fairyring.app.demo import make_demo
+from fairyring.app.demo.making import make_demo
 
 PICTURES = Path(__file__).parent / "pictures"
 WINDOW = {"width": 1440, "height": 860}

@@ -23,12 +23,9 @@ from fairyring.storage.db.clock import now
 from fairyring.storage.db.engine import connect_engine, explained, warn_of_network_drive
 from fairyring.storage.db.upgrade import upgrade
 from fairyring.storage.errors import StoreError
+from fairyring.storage.folder import DATABASE, IMAGES, SETTINGS, is_project
 
 T = TypeVar("T")
-
-SETTINGS = "fairyring.toml"
-DATABASE = "project.db"
-IMAGES = "images"
 
 
 class Project:
@@ -99,7 +96,7 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
     Raises:
         StoreError: it is a project already, or the folder or database cannot be written.
     """
-    if (folder / SETTINGS).exists():
+    if is_project(folder):
         raise StoreError(f"{folder} is a Fairyring project already; open it, or choose another folder.")
     try:
         (folder / IMAGES).mkdir(parents=True, exist_ok=True)

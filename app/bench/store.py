@@ -23,10 +23,11 @@ from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
 from fairyring.app.live.editing import derive_edits
 from fairyring.storage.contents import load_contents
+from fairyring.storage.folder import DATABASE
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import commit
-from fairyring.storage.project import DATABASE, Project, create_project
+from fairyring.storage.project import Project, create_project
 from fairyring.storage.records import Cap, Edit, ImageContents
 
 

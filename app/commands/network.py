@@ -13,14 +13,11 @@ import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.project import AsJson, ProjectFolder
-from fairyring.app.commands.stopping import stopped_by_sigterm
+from fairyring.app.commands.stopping import INTERRUPTED, stopped_by_sigterm
 from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
     from fairyring.storage.project import Project
-
-INTERRUPTED = 130
-"""Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""
 
 
 class Device(StrEnum):

@@ -7,22 +7,37 @@ from typing import Annotated
 
 import typer
 
+from fairyring.app.commands.last_line import last_line
 from fairyring.app.commands.project import ProjectFolder
+
+Port = Annotated[int | None, typer.Option(help="Port to listen on: 8080.", min=1, max=65535)]
 
 
 def serve(
     folder: ProjectFolder,
     *,
     host: Annotated[str | None, typer.Option(help="Address to listen on: 127.0.0.1.")] = None,
-    port: Annotated[int | None, typer.Option(help="Port to listen on: 8080.", min=1, max=65535)] = None,
+    port: Port = None,
     config: Annotated[Path | None, typer.Option(help="TOML file; else the project's own.")] = None,
 ) -> None:
     """Open a project in the browser, until Ctrl+C.
 
     Example: `fairyring serve beds --port 8080`
     """
+    open_for_people(folder, host=host, port=port, config=config)
+
+
+def open_for_people(
+    folder: Path, *, host: str | None = None, port: int | None = None, config: Path | None = None
+) -> None:
+    """Serves a project until Ctrl+C or SIGTERM, and shows its address from when it answers on."""
     from fairyring.app.gateway.server import serve as run
     from fairyring.app.settings import load_settings
 
     settings = load_settings(folder, file=config, host=host, port=port)
-    run(folder, settings=settings)
+    with last_line() as show:
+        run(
+            folder,
+            settings=settings,
+            ready=lambda address: show(f"{folder} is open at {address} (Ctrl+C ends it)"),
+        )

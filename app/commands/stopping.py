@@ -9,6 +9,9 @@ from contextlib import contextmanager
 
 from fairyring.app.commands.progress import Progress
 
+INTERRUPTED = 130
+"""Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""
+
 
 @contextmanager
 def stopped_by_sigterm(progress: Progress) -> Iterator[Progress]:

@@ -26,7 +26,7 @@ from fairyring.model.predict.shipped import RECIPE, SHIPPED
 from fairyring.model.train.checkpoint import CheckpointError
 from fairyring.model.train.loop import CARD, TrainResult, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
-from fairyring.storage.project import SETTINGS
+from fairyring.storage.folder import is_project
 
 IMAGENET = "imagenet"
 """Given in place of a file: a new network, its backbone as ImageNet left it."""
@@ -88,7 +88,7 @@ def train_as_asked(
         start = continuation_of(out, asked, record)
     else:
         weights = asked.weights
-        if weights is None and (sources[0] / SETTINGS).exists():
+        if weights is None and is_project(sources[0]):
             weights = shipped_for(asked.recipe(Recipe()))
         goes_on = weights is not None and Path(weights).suffix == ".safetensors"
         start = start_of(asked.recipe(further() if goes_on else Recipe()), weights, record)

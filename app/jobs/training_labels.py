@@ -17,10 +17,11 @@ from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
 from fairyring.storage.contents import load_annotations
 from fairyring.storage.errors import StoreError
+from fairyring.storage.folder import is_project
 from fairyring.storage.images import ImageFilter, get_image, list_ids
 from fairyring.storage.importing.intake import Intake, take_in
 from fairyring.storage.importing.sources import Sources, gather
-from fairyring.storage.project import SETTINGS, Project, open_project
+from fairyring.storage.project import Project, open_project
 from fairyring.storage.records import Annotation, Cap, Image
 
 Item = TypeVar("Item")
@@ -50,7 +51,7 @@ def labels_at(
     progress: Progress = lambda *_: None,
 ) -> Labels:
     """The labels of a project's folder, or of one COCO file or several. Raises FairyringError."""
-    projects = [path for path in paths if (path / SETTINGS).exists()]
+    projects = [path for path in paths if is_project(path)]
     if projects and len(paths) > 1:
         raise FairyringError(f"{projects[0]} is a project; give it alone, or COCO files only.")
     if projects:

@@ -6,12 +6,9 @@ While it runs, every finished bed has a part of its own under ``OUT/.parts``; th
 from __future__ import annotations
 
 import hashlib
-import multiprocessing
 import os
 import shutil
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +18,7 @@ import msgspec.structs
 
 from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.scene.bed import Bed, render_bed
+from fairyring.model.scene.processes import worked_on
 from fairyring.model.scene.settings import SceneError, Settings
 from fairyring.model.scene.truth import BedCap
 
@@ -53,10 +51,9 @@ def write_beds(
     missing = [index for index in range(count) if not _is_done(out, index)]
     done = count - len(missing)
     progress(done, count, "rendering")
-    with _renderer(jobs) as render:
-        for _ in render([(out, settings, seed, index) for index in missing]):
-            done += 1
-            progress(done, count, "rendering")
+    for _ in worked_on(_render_one, [(out, settings, seed, index) for index in missing], jobs=jobs):
+        done += 1
+        progress(done, count, "rendering")
     _join(out, head, count)
     return len(missing)
 
@@ -97,16 +94,16 @@ def _open_folder(out: Path, head: dict[str, Any], *, resume: bool) -> None:
     marker = out / PARTS / "settings"
     if out.exists() and not out.is_dir():
         raise SceneError(f"{out} is a file; give a new or empty folder.")
-    if out.exists() and any(out.iterdir()):
+    if any(path.is_file() for path in out.rglob("*")):
         if not resume:
             raise SceneError(f"{out} is not empty; give a new folder, or --resume to continue in it.")
         if (out / DOCUMENT).exists():
             _take_apart(out, head)
         elif not marker.exists() or marker.read_text() != key:
             raise SceneError(f"{out} was not begun with this seed and these settings; give a new folder.")
-    (out / "images").mkdir(parents=True, exist_ok=True)
-    marker.parent.mkdir(exist_ok=True)
-    marker.write_text(key)
+    marker.parent.mkdir(parents=True, exist_ok=True)
+    _write(marker, key.encode())
+    (out / "images").mkdir(exist_ok=True)
 
 
 def _take_apart(out: Path, head: dict[str, Any]) -> None:
@@ -132,22 +129,6 @@ def _part(out: Path, index: int) -> Path:
 
 def _is_done(out: Path, index: int) -> bool:
     return _part(out, index).exists() and (out / "images" / name_of_bed(index)).exists()
-
-
-@contextmanager
-def _renderer(jobs: int) -> Iterator[Callable[[list[tuple[Path, Settings, int, int]]], Iterator[None]]]:
-    """Maps ``_render_one`` over tasks, in this process or in several, all stopped when the block is left."""
-    if jobs == 1:
-        yield lambda tasks: map(_render_one, tasks)
-        return
-    with multiprocessing.get_context("spawn").Pool(jobs, initializer=_begin_worker) as pool:
-        yield lambda tasks: pool.imap_unordered(_render_one, tasks)
-
-
-def _begin_worker() -> None:
-    """One thread a process; Ctrl+C is the parent's to answer."""
-    cv2.setNumThreads(1)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _render_one(task: tuple[Path, Settings, int, int]) -> None:

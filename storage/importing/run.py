@@ -14,6 +14,7 @@ from sqlalchemy import Connection
 
 from fairyring.storage.cap_validity import check_name
 from fairyring.storage.errors import StoreError
+from fairyring.storage.folder import IMAGES
 from fairyring.storage.formats.found import Problem, Progress
 from fairyring.storage.importing.entering import (
     Entered,
@@ -28,7 +29,7 @@ from fairyring.storage.importing.intake import Intake, take_in
 from fairyring.storage.importing.photos import Photo, Staging, photos_of_project, staging
 from fairyring.storage.importing.sources import Format, Sources, gather
 from fairyring.storage.predictions import add_run
-from fairyring.storage.project import IMAGES, Project
+from fairyring.storage.project import Project
 from fairyring.storage.records import Run
 
 As = Literal["annotations", "predictions"]

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser
 
 from fairyring.app.bench.browser.tab import Tab, chromium
 from fairyring.app.bench.serving import Server
-from fairyring.app.demo import make_demo
+from fairyring.app.demo.making import make_demo
 
 
 @pytest.fixture(scope="module")

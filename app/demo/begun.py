@@ -1,0 +1,77 @@
+"""What a demo was begun with, kept in its folder until it is whole, so that it can be gone on with.
+
+Light to import: whether there is anything left to make is asked each time the demo is opened.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+import msgspec
+from msgspec import Struct
+
+from fairyring.storage.errors import StoreError
+
+UNFINISHED = "unfinished"
+"""Folder in the project, for as long as the demo is being made."""
+BEGUN, LOCK = "begun.json", "lock"
+
+
+class Begun(Struct, frozen=True, kw_only=True):
+    """Which beds a demo shows."""
+
+    count: int
+    seed: int
+
+
+def begun_in(folder: Path) -> Begun | None:
+    """The demo that was begun in ``folder`` and never finished. Raises StoreError for a damaged note."""
+    note = folder / UNFINISHED / BEGUN
+    if not note.is_file():
+        return None
+    try:
+        return msgspec.json.decode(note.read_bytes(), type=Begun)
+    except (OSError, msgspec.DecodeError) as error:
+        raise StoreError(f"{note} cannot be read ({error}); delete {folder} to start afresh.") from error
+
+
+def beds_of(folder: Path) -> Path:
+    """Where the beds are rendered to."""
+    return folder / UNFINISHED / "beds"
+
+
+@contextmanager
+def begun(folder: Path, demo: Begun) -> Iterator[Begun]:
+    """Yields the demo begun in ``folder``, which is this one where there is none; finished after the block.
+
+    Raises StoreError where another process is making it, or ``folder`` cannot be written.
+    """
+    note = folder / UNFINISHED / BEGUN
+    with _locked(note.with_name(LOCK), folder):
+        found = begun_in(folder)
+        if found is None:
+            fresh = note.with_suffix(".part")
+            fresh.write_bytes(msgspec.json.encode(demo))
+            fresh.replace(note)
+        yield found or demo
+        # The note first: what is left over without it is no demo to go on with.
+        note.unlink()
+        shutil.rmtree(folder / UNFINISHED)
+
+
+def _locked(lock: Path, folder: Path) -> IO[str]:
+    """The lock, open; it is let go of when it is closed, and when this process ends, however it does."""
+    try:
+        lock.parent.mkdir(parents=True, exist_ok=True)
+        opened = lock.open("w")
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise StoreError(f"{folder} is being made by another process; wait for it, or end it.") from None
+    except OSError as error:
+        raise StoreError(f"{folder} cannot be made a project: {error.strerror}.") from error
+    return opened
