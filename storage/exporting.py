@@ -15,6 +15,7 @@ from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
 from fairyring.model.photo import probe, read
+from fairyring.model.progress import Progress, silent
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
@@ -26,7 +27,6 @@ from fairyring.storage.formats.coco_writing import (
     prediction_entry,
     write_document,
 )
-from fairyring.storage.formats.found import Progress
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
@@ -50,7 +50,7 @@ def export_coco(
     *,
     only: Only = "annotated",
     with_ignored: bool = False,
-    progress: Progress | None = None,
+    progress: Progress = silent,
 ) -> ExportReport:
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
 
@@ -68,12 +68,11 @@ def export_coco(
     Raises:
         StoreError: ``out`` holds something or cannot be written, or a photo is gone.
     """
-    report = progress or (lambda _done, _total, _what: None)
     with project.read() as connection, _made_at_once(out) as folder:
         images = _images(connection, only)
         (folder / "images").mkdir()
         for done, image in enumerate(images):
-            report(done, len(images), "Copying photos")
+            progress(done, len(images), "Copying photos")
             _copy(project.folder / image.path, folder / "images" / image.file_name)
         categories = {row.name: row.extra for row in connection.execute(_CATEGORIES)}
         licenses: list[dict[str, Any]] = []
@@ -89,7 +88,7 @@ def export_coco(
                 for number, image in enumerate(images, start=1)
             ],
         }
-        caps = _caps(connection, images, only=only, with_ignored=with_ignored, progress=report)
+        caps = _caps(connection, images, only=only, with_ignored=with_ignored, progress=progress)
         numbers = {name: number for number, name in enumerate(categories, start=1)}
         with (folder / "instances.json").open("wb") as file:
             count = write_document(file, head, _entries(caps, numbers))

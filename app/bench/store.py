@@ -21,7 +21,7 @@ from fairyring.app.bench.plain import synced_inserts
 from fairyring.app.bench.projects import Bed, write_labels
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
-from fairyring.app.live.editing import derive_edits
+from fairyring.app.caps.whole_outlines import derive_edits
 from fairyring.storage.contents import load_contents
 from fairyring.storage.folder import DATABASE
 from fairyring.storage.images import ImageFilter, list_images

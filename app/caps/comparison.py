@@ -13,14 +13,12 @@ import anyio.to_thread
 
 from fairyring.app.caps.image_caps import Scene, covered_by
 from fairyring.app.caps.nearby import keys_near
-from fairyring.app.jobs.runner import Progress, Result
 from fairyring.model.evaluate import centres
 from fairyring.model.evaluate.pages import CapRecord
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import diameter_of_shape
-from fairyring.storage.comparisons import Comparison, stale_images, store_comparison
+from fairyring.storage.comparisons import Comparison, store_comparison
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_version
-from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
 
@@ -65,21 +63,6 @@ def compare_image(project: Project, image_id: int) -> Comparison | None:
     figures = _figures(contents.run.id, version, contents.image, annotations, found)
     project.write(lambda connection: store_comparison(connection, figures))
     return figures
-
-
-def compare_work(project: Project) -> Callable[[Progress], Result]:
-    """The work of a job that brings the figures of every image of the latest run up to date."""
-
-    def work(progress: Progress) -> Result:
-        with project.read() as connection:
-            run = latest_run(connection)
-            stale = stale_images(connection, run.id) if run else []
-        for done, image_id in enumerate(stale):
-            progress(done, len(stale), "Comparing caps with predictions")
-            compare_image(project, image_id)
-        return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
-
-    return work
 
 
 class Reviewer:

@@ -5,7 +5,7 @@ Neighbours matter only where they touch, so a single cap is reconstructed among 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -19,6 +19,7 @@ from fairyring.model.contour.reconstruct import Reconstruction, reconstruct
 from fairyring.model.contour.result import Arc as FoundArc
 from fairyring.model.geometry.raster import check_mark, check_outline
 from fairyring.model.geometry.shapes import Circle, GeometryError, Polygon
+from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.errors import StoreError
@@ -28,7 +29,6 @@ from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline, Shape
 
 Key = TypeVar("Key")
-Progress = Callable[[int, int, str], None]
 REACH = 0.5
 """How far around a cap, as a share of its size, others still count as its neighbours."""
 
@@ -103,9 +103,7 @@ def derive_edits(project: Project, edits: Sequence[Edit], *, known: Scene | None
     return [_derive(edit, scenes.get(edit.image)) for edit in edits]
 
 
-def fill_in(
-    project: Project, image_ids: Sequence[int] | None = None, *, progress: Progress | None = None
-) -> int:
+def fill_in(project: Project, image_ids: Sequence[int] | None = None, *, progress: Progress = silent) -> int:
     """Works out every whole outline and centre that is missing; returns how many were stored.
 
     ``image_ids`` None means the whole project. Each image is stored by itself, so that a later call goes on
@@ -116,8 +114,7 @@ def fill_in(
             image_ids = derived.images_with_underived(connection)
     stored = 0
     for done, image_id in enumerate(image_ids):
-        if progress is not None:
-            progress(done, len(image_ids), "Finding whole outlines and centres")
+        progress(done, len(image_ids), "Finding whole outlines and centres")
         stored += _fill_in_image(project, image_id)
     return stored
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
-Progress = Callable[[int, int, str], None]
-"""Called with (done, total, what is being done)."""
+from fairyring.model.progress import Progress
 
 
 @contextmanager

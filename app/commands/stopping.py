@@ -7,7 +7,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from fairyring.app.commands.progress import Progress
+from fairyring.model.progress import Progress
 
 INTERRUPTED = 130
 """Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""

@@ -7,10 +7,10 @@ import shutil
 from functools import partial
 from pathlib import Path
 
-from fairyring.app.caps.whole_outlines import Progress
 from fairyring.app.demo.begun import Begun, beds_of, begun, begun_in
 from fairyring.app.jobs.predicting import network_of, predict_images
 from fairyring.model.predict.shipped import SHIPPED
+from fairyring.model.progress import Progress, silent
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset
 from fairyring.model.scene.settings import SceneError
@@ -21,7 +21,7 @@ from fairyring.storage.importing.run import import_paths
 from fairyring.storage.project import Project, create_project, open_project
 
 
-def make_demo(folder: Path, *, count: int, seed: int, progress: Progress = lambda *_: None) -> None:
+def make_demo(folder: Path, *, count: int, seed: int, progress: Progress = silent) -> None:
     """Makes ``folder`` a project of ``count`` rendered beds with predictions.
 
     Where that was begun before and interrupted, it goes on with the beds it was begun with. Raises

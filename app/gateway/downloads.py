@@ -1,4 +1,4 @@
-"""``/downloads/{file}``: what export jobs have made."""
+"""Downloads: the data sets that export jobs have made."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MADE_HERE = re.compile(r"[0-9a-f]{32}\.zip")
 
 
 def downloads_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
-    """The endpoint; only names that an export has chosen itself are looked for."""
+    """The endpoint of `DOWNLOADS`; only names that an export has chosen itself are looked for."""
 
     async def downloads(request: Request) -> Response:
         if name_of(request) is None:

@@ -14,6 +14,7 @@ import PIL.Image
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
+from fairyring.app.addresses import content_of
 from fairyring.app.gateway.login import name_of
 from fairyring.model import photo
 from fairyring.model.errors import FairyringError
@@ -32,13 +33,8 @@ EXIF_ORIENTATION = 0x0112
 QUALITY_FULL, QUALITY_SCALED = 95, 88
 
 
-def url_of_photo(image: Image) -> str:
-    """Where the browser finds the photo; another content has another URL."""
-    return f"/photos/{image.id}/{image.sha256[:16]}"
-
-
 def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awaitable[Response]]:
-    """The endpoint ``/photos/{image}/{sha}[?w=width]``; ``cache_limit`` in bytes."""
+    """The endpoint of `PHOTOS`, which takes a width as ``?w=``; ``cache_limit`` in bytes."""
     cache = project.folder / "cache" / "photos"
     decoding = anyio.CapacityLimiter(2)
 
@@ -46,7 +42,7 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
         if name_of(request) is None:
             return PlainTextResponse("Open the page first and say your name.", status_code=401)
         image = await anyio.to_thread.run_sync(_image_at, project, request.path_params["image"])
-        if image is None or request.path_params["sha"] != image.sha256[:16]:
+        if image is None or request.path_params["content"] != content_of(image):
             return PlainTextResponse("There is no such photo in this project.", status_code=404)
         width = _width_wanted(request.query_params.get("w"), image)
         try:

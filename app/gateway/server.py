@@ -22,6 +22,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
+from fairyring.app.addresses import DOWNLOADS, PHOTOS
 from fairyring.app.gateway.downloads import downloads_of
 from fairyring.app.gateway.login import name_page
 from fairyring.app.gateway.photos import photos_of
@@ -100,8 +101,8 @@ def make_app(workspace: Workspace) -> Starlette:
             WebSocketRoute("/", relay_to(viser_port)),
             WebSocketRoute("/editor", editor_of(workspace)),
             Route("/name", name_page, methods=["GET", "POST"]),
-            Route("/photos/{image:int}/{sha}", photos_of(workspace.project, cache_limit=cache_limit)),
-            Route("/downloads/{name}", downloads_of(workspace.project)),
+            Route(PHOTOS, photos_of(workspace.project, cache_limit=cache_limit)),
+            Route(DOWNLOADS, downloads_of(workspace.project)),
             Route("/healthz", _healthz),
             Mount("/static", EditorFiles()),
         ],

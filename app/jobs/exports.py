@@ -9,8 +9,10 @@ from typing import Literal
 from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
 
+from fairyring.app.addresses import download_address
 from fairyring.app.caps.whole_outlines import fill_in
-from fairyring.app.jobs.runner import Progress, Result
+from fairyring.app.jobs.runner import Result
+from fairyring.model.progress import Progress
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
 
@@ -37,7 +39,7 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
             _zip(Path(folder) / "coco", made, progress)
         _drop_old(exports)
         message = f"{report.images} images, {report.annotations} annotations."
-        return Result(message, link=f"/downloads/{made.name}")
+        return Result(message, link=download_address(made.name))
 
     return work
 

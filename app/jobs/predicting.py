@@ -14,7 +14,7 @@ import numpy as np
 import torch
 from sqlalchemy import Connection
 
-from fairyring.app.caps.whole_outlines import Progress, Whole, wholes_of
+from fairyring.app.caps.whole_outlines import Whole, wholes_of
 from fairyring.app.jobs.originals import original_of
 from fairyring.model import photo
 from fairyring.model.device import device_of
@@ -24,6 +24,7 @@ from fairyring.model.geometry.shapes import GeometryError, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import PredictConfig, Predictor
+from fairyring.model.progress import Progress, silent
 from fairyring.storage.images import get_image
 from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
 from fairyring.storage.project import Project
@@ -100,7 +101,7 @@ def predict_images(
     image_ids: Sequence[int],
     *,
     redo: bool = False,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
     predicted: Callable[[int], None] = lambda _: None,
 ) -> Outcome:
     """Predicts images, each stored whole in one transaction; ``predicted`` is called with its number then.

@@ -14,12 +14,11 @@ import anyio
 import anyio.to_thread
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.progress import Progress
 
 log = logging.getLogger(__name__)
 
 State = Literal["running", "done", "failed", "cancelled"]
-Progress = Callable[[int, int, str], None]
-"""Called with (done, total, what is being done); raises CancelledError once the job is to stop."""
 
 KEPT = 12
 """Finished jobs that stay listed."""

@@ -13,7 +13,6 @@ import msgspec
 import torch
 from msgspec import structs
 
-from fairyring.app.caps.whole_outlines import Progress
 from fairyring.app.jobs.training_labels import Labels, divided, labels_at
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
@@ -23,6 +22,7 @@ from fairyring.model.network.lite0 import imagenet_weights
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.shipped import RECIPE, SHIPPED
+from fairyring.model.progress import Progress
 from fairyring.model.train.checkpoint import CheckpointError
 from fairyring.model.train.loop import CARD, TrainResult, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe

@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 
 from sqlalchemy import Connection
 
-from fairyring.app.caps.whole_outlines import Progress
 from fairyring.app.jobs.originals import original_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
+from fairyring.model.progress import Progress, silent
 from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
 from fairyring.storage.contents import load_annotations
@@ -48,7 +48,7 @@ def labels_at(
     *,
     lenient: bool = False,
     in_turn: bool = False,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
 ) -> Labels:
     """The labels of a project's folder, or of one COCO file or several. Raises FairyringError."""
     projects = [path for path in paths if is_project(path)]
@@ -63,7 +63,7 @@ def labels_at(
     return labels_of_coco(paths, lenient=lenient, in_turn=in_turn, progress=progress)
 
 
-def labels_of_project(project: Project, *, progress: Progress = lambda *_: None) -> Labels:
+def labels_of_project(project: Project, *, progress: Progress = silent) -> Labels:
     """Approved images, else all with annotations.
 
     Ignored and doubtful caps, and those without a visible outline, are where nothing is learnt.
@@ -91,7 +91,7 @@ def labels_of_coco(
     *,
     lenient: bool = False,
     in_turn: bool = False,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
 ) -> Labels:
     """All of COCO files; photos are found as an import finds them, beside each or in ``images/`` beside it.
 

@@ -8,7 +8,7 @@ from typing import Literal
 import msgspec
 from sqlalchemy import Connection
 
-from fairyring.app.gateway.photos import url_of_photo
+from fairyring.app.addresses import photo_address
 from fairyring.app.live.session import Selection, Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Predicted, Show
@@ -57,11 +57,11 @@ def _show(session: Session, found: _Found, *, select: str | None) -> None:
     session.send(
         Show(
             contents=found.contents,
-            photo=url_of_photo(found.contents.image),
+            photo=photo_address(found.contents.image),
             select=select,
             position=session.position,
             count=session.count,
-            ahead=[url_of_photo(image) for image in found.near],
+            ahead=[photo_address(image) for image in found.near],
         )
     )
 

@@ -13,11 +13,12 @@ import anyio.to_thread
 from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import Reviewer
-from fairyring.app.jobs.runner import Job, Jobs, Progress, Result
+from fairyring.app.jobs.runner import Job, Jobs, Result
 from fairyring.app.live.read_ahead import RecentImages
 from fairyring.app.live.session import Session, Tabs
 from fairyring.app.settings import Settings
 from fairyring.model.errors import FairyringError
+from fairyring.model.progress import Progress
 from fairyring.storage.project import Project
 
 Found = TypeVar("Found")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fairyring.app.gateway.photos import url_of_photo
+from fairyring.app.addresses import photo_address
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
@@ -119,7 +119,7 @@ def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
 
 def _row(row: ImageRow, *, current: bool) -> Markup:
     image = row.image
-    thumbnail = element("img", src=f"{url_of_photo(image)}?w=160", alt="", loading="lazy")
+    thumbnail = element("img", src=f"{photo_address(image)}?w=160", alt="", loading="lazy")
     caps = element("span", row.caps, title=f"{row.ignored} ignored, {row.predicted} predicted")
     name = element("span", image.file_name, class_="fr-ellipsis", title=image.file_name)
     status = element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
-from fairyring.app.caps.comparison import compare_work
+from fairyring.app.jobs.comparing import compare_work
 from fairyring.app.jobs.exports import Only, export_work
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import anyio.to_thread
 
-from fairyring.app.jobs.runner import Progress, Result
+from fairyring.app.jobs.runner import Result
 from fairyring.app.live.opening import show_predictions
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
@@ -16,6 +16,7 @@ from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.weights import require_weights, weights_of
 from fairyring.model.predict.shipped import SHIPPED
+from fairyring.model.progress import Progress
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
 

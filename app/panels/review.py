@@ -7,7 +7,7 @@ from typing import get_args
 
 from sqlalchemy import Connection
 
-from fairyring.app.caps.comparison import compare_work
+from fairyring.app.jobs.comparing import compare_work
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did

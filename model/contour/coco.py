@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.raster import check_outline
 from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import Circle, GeometryError
+from fairyring.model.progress import Progress, silent
 
 OURS = ("center", "circle", "ellipse", "center_sd", "shape", "refusal")
 
@@ -28,7 +28,7 @@ def contour_document(
     *,
     method: str | None = None,
     priors: Priors = DEFAULT,
-    progress: Callable[[int, int, str], None] = lambda _done, _total, _what: None,
+    progress: Progress = silent,
 ) -> dict[str, Any]:
     """The document with, in every annotation, what `reconstruct_silhouettes` says of its mask.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import os
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +16,12 @@ import msgspec
 import msgspec.structs
 
 from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
+from fairyring.model.progress import Progress, silent
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.processes import worked_on
 from fairyring.model.scene.settings import SceneError, Settings
 from fairyring.model.scene.truth import BedCap
 
-Progress = Callable[[int, int, str], None]
-"""Called with (done, total, what is being done)."""
 DECIMALS = 3
 PARTS = ".parts"
 DOCUMENT = "instances.json"
@@ -37,7 +35,7 @@ def write_beds(
     seed: int,
     jobs: int = 1,
     resume: bool = False,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
 ) -> int:
     """Writes ``out/instances.json`` and ``out/images/``; returns how many beds were rendered just now.
 

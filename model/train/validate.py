@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,9 +17,8 @@ from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.predict.calibration import Calibration, calibrated, fit_calibration
 from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
+from fairyring.model.progress import Progress, silent
 from fairyring.model.train.data import Example, read_rgb
-
-Progress = Callable[[int, int, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +37,7 @@ def validate(
     *,
     device: torch.device,
     settings: PredictConfig | None = None,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
 ) -> Validation:
     """Of a copy of the network, which is left as it is; its own calibration plays no part."""
     raw = copy.deepcopy(network)

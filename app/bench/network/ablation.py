@@ -9,13 +9,14 @@ from typing import Any
 import torch
 from msgspec.structs import replace
 
-from fairyring.app.bench.network.sets import LabelledPhotos, Progress, rendered_for_training
+from fairyring.app.bench.network.sets import LabelledPhotos, rendered_for_training
 from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.shipped import RECIPE
+from fairyring.model.progress import Progress
 from fairyring.model.train.data import Example
 from fairyring.model.train.loop import FINAL, TrainingProgress, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe

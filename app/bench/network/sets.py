@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,10 +11,9 @@ from fairyring.app.commands.files import read_json
 from fairyring.model import photo
 from fairyring.model.errors import FairyringError
 from fairyring.model.photo import Pixels
+from fairyring.model.progress import Progress
 from fairyring.model.scene.dataset import DOCUMENT, write_beds
 from fairyring.model.scene.presets import preset
-
-Progress = Callable[[int, int, str], None]
 
 TEST_BEDS = {"paper": (48, 3003), "farm": (20, 3001)}
 """Preset: how many beds, and their seed. Training and validation have other seeds."""

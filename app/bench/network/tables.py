@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from fairyring.app.bench.network.sets import LabelledPhotos, Progress
+from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.predict.predictor import Predictor
+from fairyring.model.progress import Progress, silent
 
 CERTAIN = 0.5
 """Least score of the predictions whose centres are measured."""
@@ -27,7 +28,7 @@ def predicted_document(
     photos: LabelledPhotos,
     *,
     settings: DecodeConfig | None = None,
-    progress: Progress = lambda *_: None,
+    progress: Progress = silent,
 ) -> dict[str, Any]:
     """What the network sees in the photos, as a COCO document with scores."""
     annotations: list[dict[str, Any]] = []

@@ -12,12 +12,13 @@ from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.shipped import SHIPPED
+from fairyring.model.progress import silent
 
 LEAST_AP, LEAST_S50 = 0.75, 0.85
 
 
 def test_shipped_weights_see_most_caps_of_fresh_beds(tmp_path: Path) -> None:
-    beds = rendered("paper", tmp_path, count=3, progress=lambda *_: None)
+    beds = rendered("paper", tmp_path, count=3, progress=silent)
     predictor = Predictor(load_weights(SHIPPED).network, device=torch.device("cpu"))
     figures = evaluate_masks(predicted_document(predictor, beds), beds.document)
     assert figures["AP"] >= LEAST_AP

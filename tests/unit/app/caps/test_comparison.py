@@ -6,12 +6,14 @@ import asyncio
 
 import pytest
 
-from fairyring.app.caps.comparison import Reviewer, compare_cap, compare_image, compare_work
+from fairyring.app.caps.comparison import Reviewer, compare_cap, compare_image
 from fairyring.app.caps.image_caps import Scene
 from fairyring.app.caps.whole_outlines import fill_in
+from fairyring.app.jobs.comparing import compare_work
 from fairyring.app.jobs.runner import CancelledError
 from fairyring.app.protocol import Show
 from fairyring.model.geometry.shapes import Circle
+from fairyring.model.progress import silent
 from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.images import get_image
@@ -80,8 +82,8 @@ def test_the_job_compares_what_is_stale_and_can_be_cancelled(project: Project) -
 
     with pytest.raises(CancelledError):
         compare_work(project)(cancel)
-    assert compare_work(project)(lambda *_: None).message == "1 images compared."
-    assert compare_work(project)(lambda *_: None).message == "Every image was up to date."
+    assert compare_work(project)(silent).message == "1 images compared."
+    assert compare_work(project)(silent).message == "Every image was up to date."
 
 
 def test_after_edits_an_image_is_compared_once_in_the_background(project: Project) -> None:

@@ -13,8 +13,9 @@ import PIL.Image
 import pytest
 from sqlalchemy import update
 
+from fairyring.app.addresses import photo_address
 from fairyring.app.gateway import photos
-from fairyring.app.gateway.photos import is_directly_showable, url_of_photo
+from fairyring.app.gateway.photos import is_directly_showable
 from fairyring.storage.db.schema import image as image_table
 from fairyring.storage.images import find_image
 from fairyring.storage.importing.run import import_paths
@@ -51,7 +52,7 @@ def added(project: Project, file: Path) -> str:
     with project.read() as connection:
         found = find_image(connection, file.name)
     assert found is not None
-    return url_of_photo(found)
+    return photo_address(found)
 
 
 def assert_quarters(pixels: np.ndarray) -> None:
@@ -140,7 +141,7 @@ def test_a_photo_taken_away_is_named_in_the_answer(port: int, project: Project) 
             update(image_table).where(image_table.c.id == found.id).values(path="images/gone.jpg")
         )
     )
-    answer = httpx.get(f"http://127.0.0.1:{port}{url_of_photo(found)}", headers=ADA)
+    answer = httpx.get(f"http://127.0.0.1:{port}{photo_address(found)}", headers=ADA)
     assert answer.status_code == 404
     assert "gone.jpg" in answer.text
 

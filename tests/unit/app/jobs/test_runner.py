@@ -13,9 +13,10 @@ from zipfile import ZipFile
 import httpx
 import msgspec
 
-from fairyring.app.jobs.runner import KEPT, UNEXPECTED, Job, Jobs, Progress, Result
+from fairyring.app.jobs.runner import KEPT, UNEXPECTED, Job, Jobs, Result
 from fairyring.app.protocol import Notice, Show
 from fairyring.model.errors import FairyringError
+from fairyring.model.progress import Progress
 from tests.support.tab import Tab, new_cap, until
 
 

@@ -1,0 +1,25 @@
+"""Addresses that the server gives to the browser, each written once: the photos and the downloads."""
+
+from __future__ import annotations
+
+from fairyring.storage.records import Image
+
+PHOTOS = "/photos/{image:int}/{content}"
+"""Route of the photos; ``content`` is what `content_of` says, so another content has another address."""
+DOWNLOADS = "/downloads/{name}"
+"""Route of the files that jobs have made."""
+
+
+def content_of(image: Image) -> str:
+    """The first 16 hex digits of the photo's SHA-256."""
+    return image.sha256[:16]
+
+
+def photo_address(image: Image) -> str:
+    """Where the browser finds a photo."""
+    return f"/photos/{image.id}/{content_of(image)}"
+
+
+def download_address(file_name: str) -> str:
+    """Where the browser finds a file that a job has made."""
+    return f"/downloads/{file_name}"

@@ -1,0 +1,27 @@
+"""Comparisons started in the app: every image of the latest run against its predictions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from fairyring.app.caps.comparison import compare_image
+from fairyring.app.jobs.runner import Result
+from fairyring.model.progress import Progress
+from fairyring.storage.comparisons import stale_images
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.project import Project
+
+
+def compare_work(project: Project) -> Callable[[Progress], Result]:
+    """The work of a job that brings the figures of every image of the latest run up to date."""
+
+    def work(progress: Progress) -> Result:
+        with project.read() as connection:
+            run = latest_run(connection)
+            stale = stale_images(connection, run.id) if run else []
+        for done, image_id in enumerate(stale):
+            progress(done, len(stale), "Comparing caps with predictions")
+            compare_image(project, image_id)
+        return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
+
+    return work
