@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 from uuid import uuid4
 
 import cv2
@@ -16,6 +16,7 @@ from sqlalchemy import Connection, func, select
 
 from fairyring.model.photo import probe, read
 from fairyring.model.progress import Progress, silent
+from fairyring.storage.choices import Only
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
@@ -31,7 +32,6 @@ from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
 
-Only = Literal["annotated", "approved", "predicted", "all"]
 Cap = Annotation | Prediction
 JPEG_QUALITY = 97
 
@@ -48,7 +48,7 @@ def export_coco(
     project: Project,
     out: Path,
     *,
-    only: Only = "annotated",
+    only: Only = Only.annotated,
     with_ignored: bool = False,
     progress: Progress = silent,
 ) -> ExportReport:
@@ -60,8 +60,7 @@ def export_coco(
     Args:
         project: whence.
         out: a new or an empty folder.
-        only: images with annotations or marked as done (annotated), approved ones, those of the latest run
-            with its predictions (predicted), or all: annotations, and predictions where there are none.
+        only: which images.
         with_ignored: keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``.
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 

@@ -13,10 +13,9 @@ from fairyring.storage.db.clock import now
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
 from fairyring.storage.db.schema import comparison, image, status_change
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Image, Status
+from fairyring.storage.records import STATUSES, Image, Status
 
 Sort = Literal["name", "added", "caps", "cdr"]
-STATUSES: tuple[Status, ...] = ("new", "annotated", "approved")
 
 
 class ImageFilter(Struct, frozen=True, kw_only=True):

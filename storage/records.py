@@ -6,7 +6,7 @@ coordinates of the upright image (x right, y down, the centre of pixel i at i + 
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 from msgspec import Struct, field
 
@@ -17,8 +17,8 @@ Shape = Circle | Ellipse
 """A whole outline: also where the cap is hidden."""
 Mark = Circle | Ellipse | Polygon
 """What a person placed. The browser places circles and polygons; ellipses come from imports."""
-Light = Literal["top", "side", "dark"]
 Status = Literal["new", "annotated", "approved"]
+STATUSES: tuple[Status, ...] = get_args(Status)
 
 
 class Image(Struct, frozen=True, kw_only=True):

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.photo import read
+from fairyring.model.photo import SUFFIXES, read
 from fairyring.model.scene.bed import render_bed
 from fairyring.model.scene.presets import PRESETS
 
@@ -17,7 +17,6 @@ TILE = (640, 360)
 ACROSS = 4
 EACH = 4
 """Beds of every preset."""
-PHOTOS = {".jpg", ".jpeg", ".png"}
 
 Picture = NDArray[np.uint8]
 
@@ -39,7 +38,7 @@ def draw_sheet(out: Path, *, real: Path | None) -> None:
 def _photos(real: Path) -> list[Picture]:
     folder = real / "images"
     files = sorted(folder.iterdir()) if folder.is_dir() else []
-    photos = [read(file) for file in files if file.suffix.lower() in PHOTOS]
+    photos = [read(file) for file in files if file.suffix.lower() in SUFFIXES]
     if not photos:
         raise FairyringError(f"There are no photos in {folder}; give a folder with images/.")
     # Rows of photos are filled up, so that the beds begin a row of their own.

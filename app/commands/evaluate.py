@@ -12,11 +12,10 @@ from typing import Annotated, Any
 import typer
 
 from fairyring.app.commands.files import about, read_json
+from fairyring.app.commands.rows import AsJson
 from fairyring.model.errors import FairyringError
 
 commands = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Measure predictions against truth.")
-
-AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
 
 
 class PairBy(StrEnum):

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
-from fairyring.app.commands.project import AsJson, ProjectFolder
+from fairyring.app.commands.project import ProjectFolder
+from fairyring.app.commands.rows import AsJson
 from fairyring.app.commands.stopping import INTERRUPTED, stopped_by_sigterm
 from fairyring.model.errors import FairyringError
 

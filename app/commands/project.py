@@ -3,58 +3,20 @@
 from __future__ import annotations
 
 import json
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.rows import AsJson
+from fairyring.model.light_and_form import FORMS, LightSource
+from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only
 
 if TYPE_CHECKING:
     from fairyring.storage.importing.run import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")]
-
-
-class ImportFormat(StrEnum):
-    """What a path given to ``import`` holds."""
-
-    auto = "auto"
-    images = "images"
-    coco = "coco"
-    labelme = "labelme"
-
-
-class ImportAs(StrEnum):
-    """What imported shapes become."""
-
-    annotations = "annotations"
-    predictions = "predictions"
-
-
-class LightSource(StrEnum):
-    """The paper's three light sources (Figure 4)."""
-
-    top = "top"
-    side = "side"
-    dark = "dark"
-
-
-class Only(StrEnum):
-    """Which images an export holds."""
-
-    annotated = "annotated"
-    approved = "approved"
-    predicted = "predicted"
-    all = "all"
-
-
-class ExportFormat(StrEnum):
-    """The formats an export can be written in."""
-
-    coco = "coco"
 
 
 def init(
@@ -94,17 +56,17 @@ def import_(
     from fairyring.storage.importing.run import import_paths
     from fairyring.storage.project import open_project
 
-    if form is not None and form not in tuple("abcdefgh"):
+    if form is not None and form not in FORMS:
         raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
     with open_project(folder) as project, shown_on_stderr() as progress:
         report = import_paths(
             project,
             paths,
-            kind=format_.value,
-            as_=as_.value,
+            kind=format_,
+            as_=as_,
             strict=strict,
             link=link,
-            light=light.value if light else None,
+            light=light,
             form=form,
             progress=progress,
         )
@@ -152,7 +114,7 @@ def export(
     assert format_ is ExportFormat.coco
     with open_project(folder) as project, shown_on_stderr() as progress:
         fill_in(project, progress=progress)
-        report = export_coco(project, out, only=only.value, with_ignored=with_ignored, progress=progress)
+        report = export_coco(project, out, only=only, with_ignored=with_ignored, progress=progress)
     if as_json:
         typer.echo(json.dumps({"images": report.images, "annotations": report.annotations}))
     else:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
-from fairyring.app.commands.project import LightSource
+from fairyring.model.light_and_form import LightSource
 
 if TYPE_CHECKING:
     from fairyring.model.scene.settings import Settings
@@ -53,7 +53,7 @@ def _settings(
     settings = changed(preset_of(preset), _tables(config)) if config else preset_of(preset)
     chosen: dict[str, Any] = {}
     if light:
-        chosen["lights"] = [source.value for source in light]
+        chosen["lights"] = light
     if form:
         chosen["forms"] = form
     return changed(settings, chosen)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Literal
 from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
 
@@ -13,10 +12,10 @@ from fairyring.app.addresses import download_address
 from fairyring.app.caps.whole_outlines import fill_in
 from fairyring.app.jobs.runner import Result
 from fairyring.model.progress import Progress
+from fairyring.storage.choices import Only
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
 
-Only = Literal["annotated", "approved", "predicted", "all"]
 KEPT = 3
 """Zip files that stay in the cache."""
 

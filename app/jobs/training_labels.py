@@ -15,6 +15,7 @@ from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
 from fairyring.model.progress import Progress, silent
 from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
+from fairyring.storage.choices import ImportFormat
 from fairyring.storage.contents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import is_project
@@ -109,7 +110,7 @@ def labels_of_coco(
 
 
 def _of_file(path: Path, *, lenient: bool, progress: Progress) -> Labels:
-    sources = gather([path], kind="coco")
+    sources = gather([path], kind=ImportFormat.coco)
     intake = take_in(sources, known={}, light=None, form=None, progress=progress)
     if intake.problems and not (lenient and intake.seen):
         others = len(intake.problems) - 1

@@ -9,14 +9,12 @@ from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.panels.status import STATUS_OF_WORD, STATUS_WORDS
+from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.images import ImageFilter, ImagePage, ImageRow, list_images, position_in_list
 
 PAGE = 10
 ANY = "any"
-STATUSES = {ANY: None, "to do": "new", "annotated": "annotated", "approved": "approved"}
-LIGHTS = {ANY: None, "top": "top", "side": "side", "dark": "dark"}
-FORMS = {ANY: None} | {letter: letter for letter in "abcdefgh"}
 ORDERS = {
     "name": ImageFilter(),
     "name, Z first": ImageFilter(descending=True),
@@ -39,9 +37,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     gui, at = session.client.gui, _Shown()
     search = gui.add_text("Search", "", hint="Part of a file name")
     with gui.add_folder("Filter and order", expand_by_default=False):
-        status = gui.add_dropdown("Status", tuple(STATUSES))
-        light = gui.add_dropdown("Light", tuple(LIGHTS))
-        form = gui.add_dropdown("Form", tuple(FORMS))
+        status = gui.add_dropdown("Status", (ANY, *STATUS_OF_WORD))
+        light = gui.add_dropdown("Light", (ANY, *LIGHTS))
+        form = gui.add_dropdown("Form", (ANY, *FORMS))
         order = gui.add_dropdown("Order", tuple(ORDERS))
     shown = gui.add_html("")
     pages = gui.add_button_group("Page", ("«", "‹", "›", "»"))
@@ -50,9 +48,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         ordered = ORDERS[order.value]
         session.filter = ImageFilter(
             search=search.value.strip(),
-            status=STATUSES[status.value],
-            light=LIGHTS[light.value],
-            form=FORMS[form.value],
+            status=STATUS_OF_WORD.get(status.value),
+            light=_chosen(light.value),
+            form=_chosen(form.value),
             sort=ordered.sort,
             descending=ordered.descending,
         )
@@ -73,6 +71,11 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         control.on_update(person_did(session, filter_changed))
     pages.on_click(person_did(session, turn))
     return redraw
+
+
+def _chosen(value: str) -> str | None:
+    """What a filter asks for; None where it lets everything through."""
+    return None if value == ANY else value
 
 
 async def _follow(workspace: Workspace, session: Session, at: _Shown) -> None:

@@ -5,20 +5,21 @@ from __future__ import annotations
 import asyncio
 
 from fairyring.app.jobs.comparing import compare_work
-from fairyring.app.jobs.exports import Only, export_work
+from fairyring.app.jobs.exports import export_work
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
+from fairyring.storage.choices import Only
 
 EVERY_S = 0.5
 """How often a running job's progress is drawn."""
 EXPORTS: dict[str, Only] = {
-    "Approved images": "approved",
-    "Annotated images": "annotated",
-    "Annotations, else predictions": "all",
-    "Predictions of the latest run": "predicted",
+    "Approved images": Only.approved,
+    "Annotated images": Only.annotated,
+    "Annotations, else predictions": Only.all,
+    "Predictions of the latest run": Only.predicted,
 }
 
 

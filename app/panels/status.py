@@ -9,9 +9,10 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import Markup, element
-from fairyring.storage.records import Run
+from fairyring.storage.records import Run, Status
 
-STATUS_WORDS = {"new": "to do", "annotated": "annotated", "approved": "approved"}
+STATUS_WORDS: dict[Status, str] = {"new": "to do", "annotated": "annotated", "approved": "approved"}
+STATUS_OF_WORD: dict[str, Status] = {word: status for status, word in STATUS_WORDS.items()}
 
 
 def build(_workspace: Workspace, session: Session) -> Redraw:

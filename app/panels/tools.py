@@ -8,7 +8,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import person_did
 from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import Markup, element
-from fairyring.storage.records import Status
+from fairyring.app.panels.status import STATUS_OF_WORD
 
 TOOLS = (
     ("select", "Select", "V"),
@@ -24,18 +24,17 @@ COMMANDS = (
     ("done", "Annotated, and on to the next", "Ctrl+Enter"),
     ("help", "All keys", "?"),
 )
-STATUSES: dict[str, Status] = {"To do": "new", "Annotated": "annotated", "Approved": "approved"}
 
 
 def build(workspace: Workspace, session: Session) -> None:
     """The toolbar, and the buttons for the status of the image."""
     gui = session.client.gui
     gui.add_html(toolbar().html)
-    status = gui.add_button_group("Set status", tuple(STATUSES))
+    status = gui.add_button_group("Set status", tuple(word.capitalize() for word in STATUS_OF_WORD))
 
     async def press() -> None:
         if session.image is not None:
-            await set_status(workspace, session, session.image.id, STATUSES[status.value])
+            await set_status(workspace, session, session.image.id, STATUS_OF_WORD[status.value.lower()])
 
     status.on_click(person_did(session, press))
 

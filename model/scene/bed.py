@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.light_and_form import LightSource
 from fairyring.model.scene.caps import Cap, shape_caps
 from fairyring.model.scene.growth import Rectangle, Stand, grow
 from fairyring.model.scene.layers import (
@@ -24,7 +25,7 @@ from fairyring.model.scene.lens import draw_shot, expose
 from fairyring.model.scene.light import Light, Shade, cast_shade, draw_light, shine
 from fairyring.model.scene.pixels import Image, lay_over
 from fairyring.model.scene.presets import with_form
-from fairyring.model.scene.settings import LightSource, Settings
+from fairyring.model.scene.settings import Settings
 from fairyring.model.scene.skin import bend_normals, dress_cap, dress_stalk
 from fairyring.model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
 from fairyring.model.scene.stalks import shape_stalks

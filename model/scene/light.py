@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.light_and_form import LightSource
 from fairyring.model.scene.caps import Box
 from fairyring.model.scene.pixels import Image, clipped, tinted
-from fairyring.model.scene.settings import LightSource
 
 HALF = 0.5
 """Shade is worked out at half size: it is smooth, and is compared with heights at full size."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
+from fairyring.model.light_and_form import LightSource
 from fairyring.model.scene.settings import Camera, Growth, SceneError, Settings, Skin, Soil
 
 PRESETS: dict[str, Settings] = {
@@ -13,7 +14,7 @@ PRESETS: dict[str, Settings] = {
     "paper": Settings(growth=Growth(caps=(50, 65), diameters=(16, 32, 68, 118, 200), cluster=8.0)),
     "farm": Settings(
         forms=("",),
-        lights=("top",),
+        lights=(LightSource.top,),
         growth=Growth(
             caps=(225, 265),
             diameters=(13, 25, 42, 66, 107),

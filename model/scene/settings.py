@@ -6,16 +6,13 @@ A pair ``(low, high)`` is a range one value is drawn from for every image.
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta, Struct, field
 
 from fairyring.model.errors import FairyringError
-
-LightSource = Literal["top", "side", "dark"]
-LIGHTS: tuple[LightSource, ...] = ("top", "side", "dark")
-FORMS = "abcdefgh"
+from fairyring.model.light_and_form import FORMS, LIGHTS, LightSource
 
 Share = Annotated[float, Meta(ge=0, le=1)]
 ShareRange = tuple[Share, Share]
@@ -111,7 +108,7 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     width: Annotated[int, Meta(ge=160, le=4096)] = 1280
     height: Annotated[int, Meta(ge=160, le=4096)] = 720
-    forms: Annotated[tuple[Form, ...], Meta(min_length=1)] = tuple(FORMS)
+    forms: Annotated[tuple[Form, ...], Meta(min_length=1)] = FORMS
     """Image i gets the i-th, over and over."""
     lights: Annotated[tuple[LightSource, ...], Meta(min_length=1)] = LIGHTS
     """Changes each time the forms have gone round."""

@@ -25,6 +25,7 @@ from typing import Any, TypeVar
 
 from fairyring.model.geometry.raster import check_rle, outline_of_rle
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
+from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.cap_validity import MAX_NAME, MAX_ORDER
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
@@ -33,8 +34,6 @@ from fairyring.storage.records import Cap, Mark, Outline, Shape
 
 T = TypeVar("T")
 
-LIGHTS = ("top", "side", "dark")
-FORMS = tuple("abcdefgh")
 
 IMAGE_KEYS = {"id", "file_name", "width", "height", "light", "form", "split", "license"}
 CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
-from typing import Literal
 
 from msgspec import Struct
 from sqlalchemy import Connection
 
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.cap_validity import check_name
+from fairyring.storage.choices import ImportAs, ImportFormat
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import IMAGES
 from fairyring.storage.formats.found import Problem
@@ -28,12 +28,10 @@ from fairyring.storage.importing.entering import (
 )
 from fairyring.storage.importing.intake import Intake, take_in
 from fairyring.storage.importing.photos import Photo, Staging, photos_of_project, staging
-from fairyring.storage.importing.sources import Format, Sources, gather
+from fairyring.storage.importing.sources import Sources, gather
 from fairyring.storage.predictions import add_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Run
-
-As = Literal["annotations", "predictions"]
 
 
 class ImportReport(Struct, frozen=True, kw_only=True):
@@ -57,8 +55,8 @@ def import_paths(
     project: Project,
     paths: Sequence[Path],
     *,
-    kind: Format = "auto",
-    as_: As = "annotations",
+    kind: ImportFormat = ImportFormat.auto,
+    as_: ImportAs = ImportAs.annotations,
     strict: bool = False,
     link: bool = False,
     light: str | None = None,
@@ -90,7 +88,7 @@ def import_paths(
         with project.read() as connection:
             known = photos_of_project(connection)
         intake = take_in(sources, known=known, light=light, form=form, progress=progress)
-        if as_ == "predictions":
+        if as_ == ImportAs.predictions:
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
         with staging(project.images) as copies:
@@ -138,7 +136,7 @@ def _store(
     sources: Sources,
     copies: Staging,
     *,
-    as_: As,
+    as_: ImportAs,
     link: bool,
     user: str,
 ) -> ImportReport:
@@ -153,7 +151,7 @@ def _store(
     labelled = [Labelled(photo=photos[name], caps=caps) for name, caps in intake.caps.items()]
     categories = {name: extra for d in sources.documents for name, extra in d.found.categories.items()}
     annotations, predictions, run = Entered(), Entered(), None
-    if as_ == "annotations":
+    if as_ == ImportAs.annotations:
         annotations = enter_annotations(connection, labelled, categories=categories, user=user)
     elif labelled:
         run = _run_of(connection, sources)

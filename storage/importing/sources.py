@@ -6,18 +6,16 @@ import os
 from collections.abc import Iterator, Sequence
 from hashlib import sha256
 from pathlib import Path
-from typing import Literal
 
 from msgspec import Struct, field
 
+from fairyring.model.photo import SUFFIXES
+from fairyring.storage.choices import ImportFormat
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import Found, Problem
 from fairyring.storage.formats.labelme import parse_labelme
 
-Format = Literal["auto", "images", "coco", "labelme"]
-
-PHOTO_SUFFIXES = {".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".bmp", ".webp"}
 ARCHIVE_SUFFIXES = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"}
 
 
@@ -37,7 +35,7 @@ class Sources(Struct, frozen=True, kw_only=True):
     problems: list[Problem] = field(default_factory=list)
 
 
-def gather(paths: Sequence[Path], *, kind: Format) -> Sources:
+def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
     """Reads the label files and lists the photos.
 
     Folders are searched to the bottom, in the order of names; hidden files and symbolic links in them
@@ -69,17 +67,19 @@ def _files_below(folder: Path) -> Iterator[Path]:
                 yield file
 
 
-def _take(file: Path, sources: Sources, *, kind: Format, named: bool) -> None:
-    is_document = file.suffix.lower() == ".json" or (named and kind in ("coco", "labelme"))
-    if is_document and kind != "images":
+def _take(file: Path, sources: Sources, *, kind: ImportFormat, named: bool) -> None:
+    is_document = file.suffix.lower() == ".json" or (
+        named and kind in (ImportFormat.coco, ImportFormat.labelme)
+    )
+    if is_document and kind != ImportFormat.images:
         _read(file, sources, kind=kind)
-    elif kind in ("auto", "images") and (named or file.suffix.lower() in PHOTO_SUFFIXES):
+    elif kind in (ImportFormat.auto, ImportFormat.images) and (named or file.suffix.lower() in SUFFIXES):
         sources.photos.append(file)
     elif named:
         sources.problems.append(Problem(str(file), "", f"This is no file of the format {kind}."))
 
 
-def _read(file: Path, sources: Sources, *, kind: Format) -> None:
+def _read(file: Path, sources: Sources, *, kind: ImportFormat) -> None:
     try:
         data = file.read_bytes()
         found = _parse(data, file=str(file), kind=kind)
@@ -90,8 +90,8 @@ def _read(file: Path, sources: Sources, *, kind: Format) -> None:
         sources.problems.append(Problem(str(file), "", f"It cannot be read: {error.strerror}."))
 
 
-def _parse(data: bytes, *, file: str, kind: Format) -> Found:
-    if kind == "labelme" or (kind == "auto" and _looks_like_labelme(data)):
+def _parse(data: bytes, *, file: str, kind: ImportFormat) -> Found:
+    if kind == ImportFormat.labelme or (kind == ImportFormat.auto and _looks_like_labelme(data)):
         return parse_labelme(data, file=file)
     return parse_coco(data, file=file)
 

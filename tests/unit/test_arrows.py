@@ -29,7 +29,7 @@ DRAWINGS = {
         journal  formats  migrations
         project  images  contents  predictions  comparisons  derived
         db  cap_validity  open_predictions
-        records  errors  folder
+        records  errors  folder  choices
     """,
     "model": """
         train
@@ -37,12 +37,12 @@ DRAWINGS = {
         contour  predict
         network
         geometry  photo  device
-        errors  progress
+        errors  progress  light_and_form
     """,
 }
 OTHER_PACKAGES = {
     "app": ("storage", "model"),
-    "storage": ("model.geometry", "model.photo", "model.errors", "model.progress"),
+    "storage": ("model.geometry", "model.photo", "model.errors", "model.progress", "model.light_and_form"),
     "model": (),
 }
 """What a package may import beside itself."""
