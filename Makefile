@@ -11,12 +11,14 @@ demo: .venv/product
 
 test: .venv/development
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
+	$(BIN)/node --test --test-reporter=dot "tests/js/**/*.test.js"
 	$(BIN)/python -m pytest $(ARGS)
 
 bench: .venv/development
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
+	$(BIN)/node tests/js/benchmark.js
 
 pictures: .venv/development
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium

@@ -1,30 +1,32 @@
 /**
- * Puts the parts together: desk, picture, tools, server.
+ * Puts the parts together: state, picture, tools, server.
  *
  * @module
  */
 
-import { COMMANDS } from "./state/commands.js";
-import { ConflictCard } from "./ui/conflict.js";
-import { Desk } from "./state/desk.js";
-import { Fitting } from "./sync/live_fit.js";
-import { Frame } from "./render/frame.js";
-import { keyList } from "./ui/help.js";
+import { same } from "./geometry/same.js";
+import { ACTIONS } from "./input/actions.js";
 import { listenToKeys } from "./input/keyboard.js";
+import { Pointer } from "./input/pointer.js";
+import { Toolbox } from "./input/toolbox.js";
+import { Opening } from "./opening.js";
+import { expose } from "./probe.js";
+import { Frame } from "./render/frame.js";
+import { Photos } from "./render/photos.js";
+import { EditorState } from "./state/editor_state.js";
+import { LiveFit } from "./sync/live_fit.js";
+import { Sync } from "./sync/sync.js";
+import { openOutbox } from "./sync/tab_outbox.js";
+import { Transport } from "./sync/transport.js";
+import { captionIn } from "./ui/caption.js";
+import { ConflictDialog } from "./ui/conflict.js";
+import { keyList } from "./ui/help.js";
 import { noticesIn } from "./ui/notices.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
-import { Photos } from "./render/photos.js";
-import { Pointer } from "./input/pointer.js";
-import { expose } from "./probe.js";
 import { statusIn } from "./ui/status.js";
-import { Sync } from "./sync/sync.js";
-import { openOutbox } from "./sync/outbox_owner.js";
-import { Toolbox } from "./input/toolbox.js";
-import { Transport } from "./sync/transport.js";
 
 /** @typedef {import("./protocol.js").FromServer} FromServer */
 /** @typedef {import("./protocol.js").Layers} Layers */
-/** @typedef {import("./protocol.js").Show} Show */
 /** @typedef {import("./protocol.js").ToServer} ToServer */
 
 /** Close codes of the server. */
@@ -33,84 +35,82 @@ const TOO_BIG = 1009;
 
 export class Editor {
   #project = "";
+  /** How many unsaved edits the server was last told of. */
   #waiting = 0;
   /** @type {Promise<void> | null} */
   #ready = null;
-  /** When the person asked for another image. @type {number | null} */
-  #switchAsked = null;
-  #host;
+  #state;
   #transport;
   #sync;
-  #fitting;
-  #photos;
+  #liveFit;
+  #opening;
   #frame;
-  #desk;
   #say;
   #status;
-  #card;
-  #pointer;
+  #conflicts;
   #toolbox;
+  #run;
 
   /**
    * @param {HTMLElement} host
    * @param {string} url of the editor's socket
    */
   constructor(host, url) {
-    this.#host = host;
     const send = (/** @type {ToServer} */ message) => this.#send(message);
-    this.#desk = new Desk((changes) => this.#sync.commit(changes));
+    const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
     this.#transport = new Transport(url, {
-      hello: (token) => ({ type: "hello", token, image: this.#desk.image?.id ?? null }),
+      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? null }),
       message: (message) => this.#receiveInOrder(message),
       state: () => this.#connectionChanged(),
       closed: (code, reason) => this.#closed(code, reason),
     });
     this.#sync = new Sync({
-      store: this.#desk.store,
+      store: state.store,
       send,
       stalled: () => this.#transport.drop(),
       progress: () => this.#progress(),
       refused: (reason) => this.#say(reason, "error"),
     });
-    this.#photos = new Photos(() => this.#frame.redrawPhoto());
-    this.#frame = new Frame(host, this.#desk, this.#photos, () => [
+    const photos = new Photos(() => this.#frame.redrawPhoto());
+    this.#frame = new Frame(host, state, photos, () => [
       this.#toolbox.tool.sketch ?? (() => false),
-      this.#card.sketch,
+      this.#conflicts.sketch,
     ]);
     this.#say = noticesIn(host);
     this.#status = statusIn(host);
-    this.#fitting = new Fitting(host, this.#desk, send);
-    this.#card = new ConflictCard(host, {
-      resolve: (clash, whose) => this.#sync.resolve(clash, whose),
-      show: (clash) => this.#showClash(clash),
+    this.#liveFit = new LiveFit(state, { send, told: captionIn(host) });
+    this.#conflicts = new ConflictDialog(host, {
+      resolve: (conflict, whose) => this.#sync.resolve(conflict, whose),
+      show: (conflict) => this.#showConflict(conflict),
     });
-    const pressed = pressedButtons(() => this.#toolbox.tool.name);
-    this.#toolbox = new Toolbox(this.#desk, () => {
+    const tool = () => this.#toolbox.tool;
+    const pressed = pressedButtons(() => tool().name);
+    const pointer = new Pointer(host, state, {
+      tool,
+      caused: (event, kind) => this.#frame.causedBy(event, kind),
+    });
+    this.#toolbox = new Toolbox(state, () => {
       pressed();
-      this.#pointer.cursor();
+      pointer.cursor();
     });
-    this.#pointer = new Pointer(host, this.#desk, this.#frame, () => this.#toolbox.tool);
-    const run = this.#makeRunner();
-    listenToKeys({
-      run,
-      desk: this.#desk,
-      pointer: this.#pointer,
-      blame: (at) => this.#frame.blame(at, "key"),
+    this.#opening = new Opening({
+      state,
+      toolbox: this.#toolbox,
+      sync: this.#sync,
+      liveFit: this.#liveFit,
+      photos,
+      frame: this.#frame,
+      say: this.#say,
     });
-    listenToPanel({
-      run,
-      use: (name) => this.#toolbox.use(name),
-      open: (image, select) => this.#open(image, select),
-    });
-    this.run = run;
-    this.#listen();
+    this.#run = this.#makeRunner();
+    this.#listen(host, pointer);
     this.#progress();
     expose(host, {
-      desk: this.#desk,
+      state,
       frame: this.#frame,
       waiting: () => this.#unsaved,
       connection: () => this.#transport.state,
-      tool: () => this.#toolbox.tool.name,
+      tool: () => tool().name,
     });
   }
 
@@ -121,66 +121,74 @@ export class Editor {
 
   /** @returns {(name: string) => boolean} */
   #makeRunner() {
-    const bench = {
-      desk: this.#desk,
-      sync: this.#sync,
+    const context = {
+      state: this.#state,
       tool: () => this.#toolbox.tool,
       use: (/** @type {string} */ name) => this.#toolbox.use(name),
+      undo: () => this.#sync.undo(),
+      redo: () => this.#sync.redo(),
       send: (/** @type {ToServer} */ message) => this.#send(message),
       toggle: (/** @type {string} */ layer) => this.#toggle(layer),
       help: keyList(),
       say: (/** @type {string} */ text) => this.#say(text),
     };
     return (name) => {
-      const command = Object.hasOwn(COMMANDS, name) ? COMMANDS[name] : null;
-      command?.(bench);
-      return command !== null;
+      const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : null;
+      action?.(context);
+      return action !== null;
     };
   }
 
-  #listen() {
-    const { signals } = this.#desk;
-    signals.selection.listen(() => this.#tellSelection());
-    signals.nudge.listen(() => this.#progress());
-    new ResizeObserver(([entry]) => this.#desk.lens.resize(entry.contentRect)).observe(this.#host);
+  /** @type {(host: HTMLElement, pointer: Pointer) => void} */
+  #listen(host, pointer) {
+    const state = this.#state;
+    listenToKeys({
+      run: this.#run,
+      state,
+      pointer,
+      pressed: (at) => this.#frame.causedBy(at, "key"),
+    });
+    listenToPanel({
+      run: this.#run,
+      use: (name) => this.#toolbox.use(name),
+      open: (image, select) => this.#open(image, select),
+    });
+    state.signals.selection.listen(() => this.#tellSelection());
+    state.signals.nudge.listen(() => this.#progress());
+    new ResizeObserver(([entry]) => state.viewport.resize(entry.contentRect)).observe(host);
     window.addEventListener("beforeunload", (event) => {
-      this.#desk.settle();
+      state.commitDrafts();
       if (!this.#sync.kept) event.preventDefault();
     });
   }
 
   /** @type {(message: ToServer) => boolean} */
   #send(message) {
-    if (message.type === "step" || message.type === "open") this.#switchAsked = performance.now();
     const sent = this.#transport.send(message);
-    if (!sent && this.#switchAsked !== null) {
-      this.#say("The server cannot be reached; other images can be opened when it is back.", "warning");
-      this.#switchAsked = null;
-    }
+    if (message.type === "step" || message.type === "open") this.#opening.ask(sent);
     return sent;
   }
 
   /** @type {(image: number, select: string | null) => void} */
   #open(image, select) {
-    this.#desk.settle();
-    if (image === this.#desk.image?.id) {
-      if (select) this.#desk.select([select], { reveal: true });
-      return;
-    }
-    this.#send({ type: "open", image, select });
+    const state = this.#state;
+    state.commitDrafts();
+    if (image !== state.image?.id) this.#send({ type: "open", image, select });
+    else if (select) state.select([select], { reveal: true });
   }
 
-  /** @type {(clash: import("./sync/sync.js").Clash) => void} */
-  #showClash(clash) {
-    if (clash.image !== this.#desk.image?.id) this.#open(clash.image, clash.uid);
-    else if (this.#desk.item(clash.uid)) {
-      this.#desk.select([clash.uid]);
-      this.#desk.reveal({ close: true });
+  /** @type {(conflict: import("./sync/sync.js").OpenConflict) => void} */
+  #showConflict({ image, uid }) {
+    const state = this.#state;
+    if (image !== state.image?.id) this.#open(image, uid);
+    else if (state.items.get(uid)) {
+      state.select([uid]);
+      state.reveal({ close: true });
     }
   }
 
   #tellSelection() {
-    const sole = this.#desk.sole;
+    const { sole } = this.#state;
     const predicted = sole?.score != null;
     this.#transport.send({
       type: "select",
@@ -200,15 +208,16 @@ export class Editor {
     this.#progress();
   }
 
+  /** Edits that are not acknowledged, and nudges that are not even committed. */
   get #unsaved() {
-    return this.#sync.waiting + this.#desk.unsettled;
+    return this.#sync.waiting + this.#state.drafts.waiting;
   }
 
   #progress() {
-    const { kept, clashes } = this.#sync;
+    const { kept, conflicts } = this.#sync;
     const waiting = this.#unsaved;
-    this.#status({ connection: this.#transport.state, waiting, kept, clashes: clashes.length });
-    this.#card.update(clashes, this.#desk.image?.id ?? 0);
+    this.#status({ connection: this.#transport.state, waiting, kept, conflicts: conflicts.length });
+    this.#conflicts.update(conflicts, this.#state.image?.id ?? 0);
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))
       this.#waiting = waiting;
   }
@@ -227,20 +236,21 @@ export class Editor {
   #receive(message) {
     switch (message.type) {
       case "show":
-        return this.#show(message);
+        this.#opening.show(message);
+        return this.#progress();
       case "outcomes":
-        return this.#sync.settle(message.outcomes);
+        return this.#sync.receive(message.outcomes);
       case "changed":
         return this.#sync.changed(message.image, message.annotations);
       case "predicted":
-        if (message.image === this.#desk.image?.id) this.#desk.predict(message.predictions);
+        if (message.image === this.#state.image?.id) this.#state.predict(message.predictions);
         return;
       case "fit":
-        return this.#fitting.take(message);
+        return this.#liveFit.take(message);
       case "layers":
         return this.#layers(message);
       case "command":
-        return void this.run(message.name);
+        return void this.#run(message.name);
       case "notice":
         return this.#say(message.text, message.level);
     }
@@ -256,47 +266,21 @@ export class Editor {
     this.#sync.resume();
   }
 
-  /** @type {(show: Show) => void} */
-  #show({ contents, photo, select, ahead }) {
-    const asked = this.#switchAsked ?? performance.now();
-    this.#switchAsked = null;
-    const { image } = contents;
-    if (image.id !== this.#desk.image?.id) {
-      this.#toolbox.tool.cancel();
-      this.#desk.settle();
-      this.#frame.blank();
-    }
-    this.#fitting.forget();
-    this.#sync.open(image.id, contents.annotations);
-    this.#desk.open(contents);
-    if (select) this.#desk.select([select], { reveal: true });
-    this.#progress();
-    this.#photos
-      .open(photo, image)
-      .then(() => this.#frame.whenComplete(() => this.#shown(asked, ahead)))
-      .catch((error) => this.#say(`${image.file_name}: ${error.message}`, "error"));
-  }
-
-  /** @type {(asked: number, ahead: string[]) => void} */
-  #shown(asked, ahead) {
-    const drawn = performance.now();
-    this.#frame.log({ event: asked, drawn, draw_ms: 0, kind: "switch" });
-    this.#photos.prefetch(ahead);
-  }
-
   /** @type {(layers: Layers) => void} */
   #layers({ visible, brightness, contrast }) {
     const plain = brightness === 1 && contrast === 1;
     this.#frame.tint(plain ? "" : `brightness(${brightness}) contrast(${contrast})`);
-    const layers = { ...this.#desk.layers, ...visible };
-    if (JSON.stringify(layers) === JSON.stringify(this.#desk.layers)) return;
-    this.#desk.layers = layers;
+    const { layers } = this.#state;
+    const now = { ...layers.visible, ...visible };
+    if (same(now, layers.visible)) return;
+    layers.visible = now;
     this.#frame.redraw();
   }
 
   /** @type {(layer: string) => void} */
   #toggle(layer) {
-    this.#desk.layers = { ...this.#desk.layers, [layer]: !this.#desk.layers[layer] };
+    const { layers } = this.#state;
+    layers.visible = { ...layers.visible, [layer]: !layers.visible[layer] };
     this.#frame.redraw();
     this.#transport.send({ type: "toggle", layer });
   }

@@ -4,17 +4,18 @@
  * @module
  */
 
-import { isPrediction } from "./state/store.js";
+import { isPrediction } from "./geometry/shapes.js";
 import { toImage, toScreen } from "./geometry/view.js";
 
-/** @typedef {import("./state/desk.js").Desk} Desk */
 /** @typedef {import("./render/frame.js").Frame} Frame */
+/** @typedef {import("./state/editor_state.js").EditorState} EditorState */
 
 /**
  * @param {HTMLElement} host
- * @param {{desk: Desk, frame: Frame, waiting: () => number, connection: () => string, tool: () => string}} editor
+ * @param {{state: EditorState, frame: Frame, waiting: () => number, connection: () => string, tool: () => string}} editor
  */
-export function expose(host, { desk, frame, waiting, connection, tool }) {
+export function expose(host, { state: editorState, frame, waiting, connection, tool }) {
+  const { viewport } = editorState;
   const view = {
     /**
      * Page coordinates of an image point, ready for a mouse.
@@ -23,38 +24,38 @@ export function expose(host, { desk, frame, waiting, connection, tool }) {
      */
     toScreen(x, y) {
       const box = host.getBoundingClientRect();
-      const [sx, sy] = toScreen(desk.lens.view, x, y);
+      const [sx, sy] = toScreen(viewport.view, x, y);
       return { x: sx + box.left, y: sy + box.top };
     },
     /** @type {(x: number, y: number) => {x: number, y: number}} */
     toImage(x, y) {
       const box = host.getBoundingClientRect();
-      const [ix, iy] = toImage(desk.lens.view, x - box.left, y - box.top);
+      const [ix, iy] = toImage(viewport.view, x - box.left, y - box.top);
       return { x: ix, y: iy };
     },
     get scale() {
-      return desk.lens.view.scale;
+      return viewport.view.scale;
     },
   };
   const state = {
     get selection() {
-      return [...desk.selected];
+      return [...editorState.selection.uids];
     },
     /** Caps people agreed on, as they look now. */
     get shapes() {
-      return desk.items
+      return editorState.items.all
         .filter((shape) => !isPrediction(shape))
-        .map((shape) => desk.drafts.get(shape.uid) ?? shape);
+        .map((shape) => editorState.shape(shape.uid));
     },
     get predictions() {
-      return desk.items.filter(isPrediction);
+      return editorState.items.all.filter(isPrediction);
     },
     get image() {
-      return desk.image;
+      return editorState.image;
     },
     /** How the outline of the one selected cap came about. */
     get fit() {
-      return desk.explanation;
+      return editorState.explanation;
     },
     get waiting() {
       return waiting();

@@ -38,3 +38,8 @@ def journal_of(project: Path, uid: str) -> list[dict[str, Any]]:
 def live_caps(project: Path) -> list[str]:
     """The uids of all live annotations on disk."""
     return [row["uid"] for row in _query(project, "SELECT uid FROM annotation WHERE deleted = 0")]
+
+
+def all_caps(project: Path) -> list[str]:
+    """The uids of all annotations on disk, deleted ones too."""
+    return [row["uid"] for row in _query(project, "SELECT uid FROM annotation")]

@@ -5,7 +5,7 @@
  * @module
  */
 
-import { joined } from "./view.js";
+import { boundsOfPoints, joinedAll } from "./bounds.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Circle} Circle */
@@ -13,7 +13,7 @@ import { joined } from "./view.js";
 /** @typedef {import("../protocol.js").Mark} Mark */
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../protocol.js").Whole} Whole */
-/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("./bounds.js").Bounds} Bounds */
 /** @typedef {{bounds: Bounds | null, area: number}} Measures */
 
 /** @type {WeakMap<Cap, Measures>} */
@@ -104,22 +104,10 @@ export function measure(cap) {
 function boundsOfCap(cap) {
   const all = ringsOf(cap)
     .filter((ring) => ring.length >= 2)
-    .map(boundsOfRing);
+    .map(boundsOfPoints);
   const placed = placedWhole(cap);
   if (placed) all.push(boundsOfWhole(placed));
-  return all.length ? all.reduce(joined) : null;
-}
-
-/** @type {(ring: number[]) => Bounds} */
-function boundsOfRing(ring) {
-  const bounds = { x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity };
-  for (let i = 0; i < ring.length; i += 2) {
-    bounds.x0 = Math.min(bounds.x0, ring[i]);
-    bounds.x1 = Math.max(bounds.x1, ring[i]);
-    bounds.y0 = Math.min(bounds.y0, ring[i + 1]);
-    bounds.y1 = Math.max(bounds.y1, ring[i + 1]);
-  }
-  return bounds;
+  return joinedAll(all);
 }
 
 /** @type {(whole: Whole) => Bounds} */

@@ -4,8 +4,8 @@
  * @module
  */
 
-import { hundredths, placedWhole } from "./caps.js";
-import { draggedVertices, nearestVertices } from "./vertices.js";
+import { boundsOfWhole, hundredths, measure, placedWhole, ringsOf } from "./caps.js";
+import { draggedVertices, nearestVertices, vertexAt } from "./vertices.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Circle} Circle */
@@ -14,6 +14,8 @@ import { draggedVertices, nearestVertices } from "./vertices.js";
 /** @typedef {{kind: "vertex", vertices: Vertex[]} | {kind: "centre"} | {kind: "rim"}} Handle */
 
 export const SMALLEST_RADIUS = 1;
+/** Handles no closer than this, CSS pixels, or they would hide the rim they are on. */
+export const HANDLE_GAP_PX = 13;
 
 /** The points of the rim that show a handle. @type {(circle: Circle) => Point[]} */
 export function rimPoints({ cx, cy, r }) {
@@ -37,11 +39,10 @@ export function nearestHandle(cap, point, reach) {
   const vertices = nearestVertices(cap, point, reach);
   const placed = placedWhole(cap);
   if (!placed) return vertices.length ? { kind: "vertex", vertices } : null;
-  const distance = ([x, y] = /** @type {Point} */ ([0, 0])) => Math.hypot(x - point[0], y - point[1]);
+  const distance = (/** @type {Point} */ [x, y]) => Math.hypot(x - point[0], y - point[1]);
   /** @type {[number, Handle][]} */
   const candidates = [[distance([placed.cx, placed.cy]), { kind: "centre" }]];
-  if (vertices.length)
-    candidates.push([nearestVertexDistance(cap, point, vertices[0]), { kind: "vertex", vertices }]);
+  if (vertices.length) candidates.push([distance(vertexAt(cap, vertices[0])), { kind: "vertex", vertices }]);
   if (placed.kind === "circle") {
     const rim = cap.visible.length
       ? Math.min(...rimPoints(placed).map(distance))
@@ -50,13 +51,6 @@ export function nearestHandle(cap, point, reach) {
   }
   const [best, handle] = candidates.reduce((a, b) => (b[0] < a[0] ? b : a));
   return best <= reach ? handle : null;
-}
-
-/** @type {(cap: Cap, point: Point, vertex: Vertex) => number} */
-function nearestVertexDistance(cap, [x, y], { ring, index }) {
-  const mark = cap.mark?.kind === "polygon" ? [cap.mark.points] : [];
-  const points = [...cap.visible, ...mark][ring];
-  return Math.hypot(points[2 * index] - x, points[2 * index + 1] - y);
 }
 
 /**
@@ -78,7 +72,34 @@ export function movedHandle(cap, handle, { dx, dy, from, pull }) {
   return { ...cap, mark: { ...mark, r: Math.max(SMALLEST_RADIUS, hundredths(mark.r + after - before)) } };
 }
 
-/** @type {(a: Handle | null, b: Handle | null) => boolean} */
-export function sameHandle(a, b) {
-  return JSON.stringify(a) === JSON.stringify(b);
+/**
+ * The cap after a handle was moved by an arrow key; right and up make a circle larger.
+ *
+ * @param {Cap} cap
+ * @param {Handle} handle
+ * @param {number} dx
+ * @param {number} dy
+ * @returns {Cap}
+ */
+export function nudgedHandle(cap, handle, dx, dy) {
+  const mark = placedWhole(cap);
+  /** @type {Point} */
+  const from = mark ? [boundsOfWhole(mark).x1, mark.cy] : [0, 0];
+  const by = handle.kind === "rim" ? { dx: dx - dy, dy: 0 } : { dx, dy };
+  return movedHandle(cap, handle, { ...by, from, pull: 0 });
+}
+
+/**
+ * Whether the vertices of a cap are far enough apart for each to have a handle of its own.
+ *
+ * @param {Cap} cap
+ * @param {number} gap  between handles, image pixels
+ * @returns {boolean}
+ */
+export function handlesAreApart(cap, gap) {
+  const { bounds } = measure(cap);
+  if (!bounds) return false;
+  const count = ringsOf(cap).reduce((sum, ring) => sum + ring.length / 2, 0);
+  const around = 3 * Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
+  return around / Math.max(count, 1) >= gap;
 }

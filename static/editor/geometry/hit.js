@@ -1,23 +1,23 @@
 /**
- * Which cap is under the pointer.
+ * Which of some shapes is under the pointer, and which lie in a rectangle.
  *
  * @module
  */
 
+import { contains, overlap } from "./bounds.js";
 import { axesOf, insideCap, measure, placedWhole, ringsOf } from "./caps.js";
-import { overlap } from "./view.js";
-import { isPrediction } from "../state/store.js";
+import { isPrediction } from "./shapes.js";
 import { nearestEdges } from "./vertices.js";
 
 /** @typedef {import("../protocol.js").Point} Point */
-/** @typedef {import("../state/store.js").Shape} Shape */
-/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("./shapes.js").Shape} Shape */
+/** @typedef {import("./bounds.js").Bounds} Bounds */
 
 /** A prediction this much smaller than an annotation around it is another cap, not the same one seen twice. */
 const ANOTHER_CAP = 1.6;
 
 /**
- * The smallest cap the point lies in, as a nested one could not be reached otherwise; else the cap whose
+ * The smallest shape the point lies in, as a nested one could not be reached otherwise; else the one whose
  * outline is nearest within `reach`. Where people have labelled a cap that is also predicted, theirs is meant.
  *
  * @param {Shape[]} shapes
@@ -86,7 +86,7 @@ function distanceToRim(whole, [x, y]) {
 }
 
 /**
- * The caps that lie wholly in the rectangle.
+ * The shapes that lie wholly in the rectangle.
  *
  * @param {Shape[]} shapes
  * @param {Bounds} rect
@@ -95,8 +95,6 @@ function distanceToRim(whole, [x, y]) {
 export function within(shapes, rect) {
   return shapes.filter(({ cap }) => {
     const { bounds } = measure(cap);
-    return (
-      bounds && bounds.x0 >= rect.x0 && bounds.y0 >= rect.y0 && bounds.x1 <= rect.x1 && bounds.y1 <= rect.y1
-    );
+    return bounds !== null && contains(rect, bounds);
   });
 }

@@ -1,36 +1,62 @@
 /**
- * From one state of a shape to the next, as plain values.
+ * A shape: one cap as it is drawn, whether people agreed on it or a network predicted it. Shapes are plain
+ * values; every function returns a new one.
  *
  * @module
  */
 
+import { joined } from "./bounds.js";
 import { boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./caps.js";
-import { movedHandle } from "./handles.js";
-import { isPrediction } from "../state/store.js";
-import { newId } from "../sync/outbox_owner.js";
 
-/** @typedef {import("./handles.js").Handle} Handle */
+/** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Point} Point */
-/** @typedef {import("../state/store.js").Change} Change */
-/** @typedef {import("../state/store.js").Shape} Shape */
-/** @typedef {import("./view.js").Bounds} Bounds */
+/** @typedef {import("../protocol.js").Prediction} Prediction */
+/** @typedef {import("../protocol.js").Whole} Whole */
+/** @typedef {import("./bounds.js").Bounds} Bounds */
 
 /**
- * Moves a handle by a fraction of a pixel; right and up make a circle larger.
- *
- * @param {Cap} cap
- * @param {Handle} handle
- * @param {number} dx
- * @param {number} dy
- * @returns {Cap}
+ * @typedef {Object} Shape
+ * @property {string} uid
+ * @property {Cap} cap
+ * @property {number} revision  of the server's that it was made on; 0 before the server knows the cap
+ * @property {boolean} deleted
+ * @property {Whole | null} whole
+ * @property {Point | null} centre
+ * @property {number | null} score  of a prediction; null for what people agreed on
  */
-export function nudgedHandle(cap, handle, dx, dy) {
-  const mark = placedWhole(cap);
-  /** @type {Point} */
-  const from = mark ? [boundsOfWhole(mark).x1, mark.cy] : [0, 0];
-  const by = handle.kind === "rim" ? { dx: dx - dy, dy: 0 } : { dx, dy };
-  return movedHandle(cap, handle, { ...by, from, pull: 0 });
+
+/** A cap that nobody has seen before. @type {(uid: string, cap: Cap) => Shape} */
+export function newShape(uid, cap) {
+  return withCap({ uid, cap, revision: 0, deleted: false, whole: null, centre: null, score: null }, cap);
+}
+
+/** @type {(annotation: Annotation) => Shape} */
+export function shapeOfAnnotation({ uid, cap, revision, deleted, whole, centre }) {
+  return { uid, cap, revision, deleted, whole, centre, score: null };
+}
+
+/** @type {(prediction: Prediction) => Shape} */
+export function shapeOfPrediction({ id, visible, category, whole, centre, score }) {
+  return {
+    uid: uidOfPrediction(id),
+    cap: { visible, mark: null, ignored: false, doubtful: false, order: null, category, prediction: id },
+    revision: 0,
+    deleted: false,
+    whole,
+    centre,
+    score,
+  };
+}
+
+/** @type {(id: number) => string} */
+export function uidOfPrediction(id) {
+  return `prediction:${id}`;
+}
+
+/** @type {(shape: Shape) => boolean} */
+export function isPrediction(shape) {
+  return shape.score !== null;
 }
 
 /** @type {(shape: Shape, dx: number, dy: number) => Shape} */
@@ -57,20 +83,14 @@ export function withCap(shape, cap) {
   return placed ? { ...shape, cap, whole: placed, centre: [placed.cx, placed.cy] } : { ...shape, cap };
 }
 
-/**
- * The change from an item to what it became. A prediction is never changed: an annotation that started
- * from it takes its place.
- *
- * @param {Shape} before
- * @param {Shape} after
- * @returns {Change}
- */
-export function changed(before, after) {
-  if (!isPrediction(before)) return { before, after };
-  return { before: null, after: { ...after, uid: newId(), revision: 0, score: null } };
-}
-
-/** @type {(shape: Shape) => Bounds | null} */
+/** Around what was drawn by hand or seen, else around the whole outline. @type {(shape: Shape) => Bounds | null} */
 export function boundsOf({ cap, whole }) {
   return measure(cap).bounds ?? (whole && boundsOfWhole(whole));
+}
+
+/** Around everything of it that may be drawn, the whole outline too. @type {(shape: Shape) => Bounds | null} */
+export function reachOf({ cap, whole }) {
+  const { bounds } = measure(cap);
+  if (!whole) return bounds;
+  return bounds ? joined(bounds, boundsOfWhole(whole)) : boundsOfWhole(whole);
 }

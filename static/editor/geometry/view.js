@@ -5,10 +5,12 @@
  * @module
  */
 
+import { grown } from "./bounds.js";
+
 /** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {import("./bounds.js").Bounds} Bounds */
 /** @typedef {{scale: number, x: number, y: number}} View */
 /** @typedef {{width: number, height: number}} Size */
-/** @typedef {{x0: number, y0: number, x1: number, y1: number}} Bounds */
 
 export const LARGEST_SCALE = 64;
 
@@ -89,26 +91,6 @@ export function revealing(view, bounds, size) {
 function shift(start, length, room, margin) {
   if (start < margin) return margin - start;
   return Math.min(0, room - margin - (start + length));
-}
-
-/** @type {(bounds: Bounds, by: number) => Bounds} */
-export function grown(bounds, by) {
-  return { x0: bounds.x0 - by, y0: bounds.y0 - by, x1: bounds.x1 + by, y1: bounds.y1 + by };
-}
-
-/** @type {(a: Bounds, b: Bounds) => Bounds} */
-export function joined(a, b) {
-  return {
-    x0: Math.min(a.x0, b.x0),
-    y0: Math.min(a.y0, b.y0),
-    x1: Math.max(a.x1, b.x1),
-    y1: Math.max(a.y1, b.y1),
-  };
-}
-
-/** @type {(a: Bounds, b: Bounds) => boolean} */
-export function overlap(a, b) {
-  return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 }
 
 /**

@@ -4,25 +4,25 @@
  * @module
  */
 
-import { commandOf, isTyping } from "./keys.js";
+import { commandOf, heldBy, isTyping } from "./keys.js";
 
 /**
- * @typedef {Object} Ears
+ * @typedef {Object} Parts  of the editor that keys reach
  * @property {(command: string) => boolean} run
- * @property {import("../state/desk.js").Desk} desk
+ * @property {import("../state/editor_state.js").EditorState} state
  * @property {import("./pointer.js").Pointer} pointer
- * @property {(at: number) => void} blame
+ * @property {(at: number) => void} pressed  a key that runs a command, and when
  */
 
-/** @type {(ears: Ears) => void} */
-export function listenToKeys({ run, desk, pointer, blame }) {
+/** @type {(parts: Parts) => void} */
+export function listenToKeys({ run, state, pointer, pressed }) {
   const held = (/** @type {KeyboardEvent} */ event, /** @type {boolean} */ down) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return false;
-    if (event.key === " ") pointer.panKey = down;
-    else if (event.key.toLowerCase() === "h") desk.hidden = down;
+    const what = heldBy(event);
+    if (what === "pan") pointer.panKey = down;
+    else if (what === "hide") state.layers.allHidden = down;
     else return false;
     pointer.cursor();
-    desk.signals.overlay.emit();
+    state.signals.overlay.emit();
     return true;
   };
   const listen = (
@@ -43,12 +43,12 @@ export function listenToKeys({ run, desk, pointer, blame }) {
     if (held(event, true)) return true;
     const command = commandOf(event);
     if (!command) return false;
-    blame(event.timeStamp);
+    pressed(event.timeStamp);
     return run(command);
   });
   listen("keyup", (event) => held(event, false));
   window.addEventListener("blur", () => {
-    pointer.panKey = desk.hidden = false;
-    desk.signals.overlay.emit();
+    pointer.panKey = state.layers.allHidden = false;
+    state.signals.overlay.emit();
   });
 }

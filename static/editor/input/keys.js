@@ -1,118 +1,76 @@
 /**
- * The keys, once: what they do and what the key list says about them.
+ * Which command a key runs, and which key belongs to something else on the page.
  *
  * @module
  */
 
-/** @typedef {{keys: string[], command: string, text: string}} Binding */
+import DECLARED from "../commands.js";
 
-/** @type {[string, Binding[]][]} */
-export const KEYS = [
-  [
-    "Tools",
-    [
-      bind("v", "select", "Select and edit"),
-      bind("w", "polygon", "Draw a visible outline"),
-      bind("c", "circle", "Drag out a circle from its centre"),
-      bind("g", "pan", "Move the view"),
-      bind("Enter", "finish", "Close the outline being drawn"),
-      bind("Escape", "cancel", "Drop what is half done, then deselect"),
-      bind(
-        "Delete Backspace",
-        "delete",
-        "Delete the vertex under the pointer, else the selected caps; take back a point",
-      ),
-    ],
-  ],
-  [
-    "Caps",
-    [
-      bind("Tab", "next_cap", "Next cap"),
-      bind("Shift+Tab", "previous_cap", "Previous cap"),
-      bind("Ctrl+A", "select_all", "Select all"),
-      bind("a", "accept", "Accept the selected prediction"),
-      bind("Shift+A", "accept_all", "Accept all open predictions"),
-      bind("m", "mark", "Take the outline as mark, or clear the mark"),
-      bind("x", "convert", "Circle to polygon mark and back, same centre"),
-      bind("d", "doubtful", "Doubtful"),
-      bind("i", "ignored", "Ignored"),
-      bind("[", "lower", "Lower in the overlap order"),
-      bind("]", "raise", "Higher in the overlap order"),
-      bind("ArrowLeft", "nudge_left", ""),
-      bind("ArrowRight", "nudge_right", ""),
-      bind("ArrowUp", "nudge_up", ""),
-      bind("ArrowDown", "nudge_down", "Move by a quarter of a pixel"),
-      bind("Shift+ArrowLeft", "push_left", ""),
-      bind("Shift+ArrowRight", "push_right", ""),
-      bind("Shift+ArrowUp", "push_up", ""),
-      bind("Shift+ArrowDown", "push_down", "Move by a pixel"),
-      bind("Ctrl+Z", "undo", "Undo"),
-      bind("Ctrl+Shift+Z Ctrl+Y", "redo", "Redo"),
-    ],
-  ],
-  [
-    "Image",
-    [
-      bind("n PageDown", "next_image", "Next image"),
-      bind("p PageUp", "previous_image", "Previous image"),
-      bind("Ctrl+Enter", "done", "Mark as annotated and go to the next"),
-      bind("f", "fit", "Fit the photo"),
-      bind("z", "zoom_selection", "Zoom to the selection"),
-      bind("+ =", "zoom_in", "Zoom in"),
-      bind("-", "zoom_out", "Zoom out"),
-      bind("1", "layer_photo", "Photo"),
-      bind("2", "layer_outline", "Visible outlines"),
-      bind("3", "layer_fill", "Fill"),
-      bind("4", "layer_whole", "Whole outlines"),
-      bind("5", "layer_centre", "Centres"),
-      bind("6", "layer_label", "Labels"),
-      bind("7", "layer_prediction", "Predictions"),
-      bind("?", "help", "This list"),
-    ],
-  ],
-];
+/** What the key list calls keys whose names the browser spells out. @type {Record<string, string>} */
+const SHORT = {
+  escape: "esc",
+  delete: "del",
+  arrowleft: "←",
+  arrowright: "→",
+  arrowup: "↑",
+  arrowdown: "↓",
+  " ": "space",
+};
 
-/** What a pointer does, for the key list. @type {[string, string][]} */
-export const GESTURES = [
-  ["Wheel", "Zoom to the pointer"],
-  ["Drag the ground · Space, middle or right drag", "Move the view"],
-  ["Click · Shift-click · Shift-drag", "Select · add · select all inside"],
-  ["Double click", "Zoom to the cap"],
-  ["Drag a vertex", "Move it; a dense outline follows (Alt: this vertex only)"],
-  ["Drag an edge", "Put a vertex in"],
-  ["Alt-click a vertex", "Take it out"],
-  ["Hold H", "Hide all shapes"],
-];
+/** What happens while a key is held, by key. @type {Map<string, string>} */
+const HELD = new Map(DECLARED.held.map(({ name, key }) => [key.toLowerCase(), name]));
 
-/** @type {(keys: string, command: string, text: string) => Binding} */
-function bind(keys, command, text) {
-  return { keys: keys.split(" "), command, text };
+/** @type {Map<string, string>} */
+const COMMANDS = new Map([
+  ...DECLARED.groups
+    .flatMap(({ commands }) => commands)
+    .flatMap(({ name, keys }) => keys.map((key) => entry(key, name))),
+  ...DECLARED.layers.map(({ name, key }) => entry(key, commandOfLayer(name))),
+]);
+
+/** @type {(key: string, command: string) => [string, string]} */
+function entry(key, command) {
+  return [key.toLowerCase(), command];
 }
 
-const COMMAND_OF = new Map(
-  KEYS.flatMap(([, bindings]) =>
-    bindings.flatMap(({ keys, command }) => keys.map((key) => [key.toLowerCase(), command])),
-  ),
-);
-
-/** @type {(event: KeyboardEvent) => string | null} */
-export function commandOf(event) {
-  return COMMAND_OF.get(chordOf(event)) ?? null;
+/** The command that shows or hides a layer. @type {(layer: string) => string} */
+export function commandOfLayer(layer) {
+  return `layer_${layer}`;
 }
 
-/** @type {(event: KeyboardEvent) => string} */
-function chordOf(event) {
-  const key = latin(event).toLowerCase();
-  const named = key.length > 1 || /[a-z]/.test(key);
-  const ctrl = event.ctrlKey || event.metaKey ? "ctrl+" : "";
-  const alt = event.altKey ? "alt+" : "";
-  return `${ctrl}${alt}${event.shiftKey && named ? "shift+" : ""}${key}`;
+/** @typedef {Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} Chord */
+
+/** @type {(chord: Chord) => string | null} */
+export function commandOf(chord) {
+  return COMMANDS.get(nameOf(chord)) ?? null;
+}
+
+/** What happens as long as the key is held: "pan", "hide" or nothing. @type {(chord: Chord) => string | null} */
+export function heldBy(chord) {
+  const { ctrlKey, metaKey, altKey } = chord;
+  return ctrlKey || metaKey || altKey ? null : (HELD.get(shortened(latin(chord))) ?? null);
+}
+
+/** The chord as it stands in the key list, in small letters. @type {(chord: Chord) => string} */
+function nameOf(chord) {
+  const key = shortened(latin(chord));
+  const named = key.length > 1 || /[a-z←→↑↓]/.test(key);
+  const ctrl = chord.ctrlKey || chord.metaKey ? "ctrl+" : "";
+  const alt = chord.altKey ? "alt+" : "";
+  // Whether a "?" takes Shift depends on the keyboard; a letter or an arrow with Shift is another chord.
+  return `${ctrl}${alt}${chord.shiftKey && named ? "shift+" : ""}${key}`;
+}
+
+/** @type {(key: string) => string} */
+function shortened(key) {
+  const small = key.toLowerCase();
+  return SHORT[small] ?? small;
 }
 
 /**
  * The letter engraved on a Latin keyboard where the layout types another script.
  *
- * @type {(event: KeyboardEvent) => string}
+ * @type {(chord: Chord) => string}
  */
 function latin({ key, code }) {
   const foreign = key.length === 1 && key.charCodeAt(0) > 127;

@@ -7,9 +7,8 @@
 
 import { toImage } from "../geometry/view.js";
 
-/** @typedef {import("../state/desk.js").Desk} Desk */
-/** @typedef {import("../render/frame.js").Frame} Frame */
 /** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tools/tool.js").Press} Press */
 /** @typedef {import("./tools/tool.js").Tool} Tool */
 
@@ -27,27 +26,28 @@ export class Pointer {
   #pressed = false;
   #rawAt = 0;
   #host;
-  #desk;
-  #frame;
+  #state;
   #tool;
+  #caused;
 
   /**
    * @param {HTMLElement} host
-   * @param {Desk} desk
-   * @param {Frame} frame
-   * @param {() => Tool} tool
+   * @param {EditorState} state
+   * @param {Object} rest
+   * @param {() => Tool} rest.tool  the one in hand
+   * @param {(event: number, kind: string) => void} rest.caused  when an event came that changes what is seen
    */
-  constructor(host, desk, frame, tool) {
+  constructor(host, state, { tool, caused }) {
     this.#host = host;
-    this.#desk = desk;
-    this.#frame = frame;
+    this.#state = state;
     this.#tool = tool;
+    this.#caused = caused;
     host.addEventListener("pointerdown", (event) => this.#down(event));
     host.addEventListener("pointermove", (event) => this.#move(event));
     host.addEventListener("pointerrawupdate", (event) => this.#raw(/** @type {PointerEvent} */ (event)));
     host.addEventListener("pointerup", (event) => this.#up(event));
     host.addEventListener("pointercancel", () => this.#cancel());
-    host.addEventListener("pointerleave", () => desk.hover(null));
+    host.addEventListener("pointerleave", () => state.selection.hover(null));
     host.addEventListener("dblclick", (event) => this.#tool().double?.(this.#press(event)));
     host.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     host.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -58,7 +58,7 @@ export class Pointer {
     const box = this.#host.getBoundingClientRect();
     this.at = [event.clientX - box.left, event.clientY - box.top];
     const { shiftKey: shift, altKey: alt } = event;
-    return { screen: this.at, image: toImage(this.#desk.lens.view, ...this.at), shift, alt };
+    return { screen: this.at, image: toImage(this.#state.viewport.view, ...this.at), shift, alt };
   }
 
   /** @type {(event: PointerEvent) => void} */
@@ -94,7 +94,7 @@ export class Pointer {
     const press = this.#press(event);
     if (press.screen[0] === x && press.screen[1] === y) return;
     this.#tool().drag(press);
-    this.#frame.blame(event.timeStamp, "drag");
+    this.#caused(event.timeStamp, "drag");
   }
 
   /** @type {(event: PointerEvent) => void} */
@@ -109,11 +109,11 @@ export class Pointer {
     const [x, y] = this.at;
     const press = this.#press(event);
     if (this.#panning) {
-      this.#desk.lens.panBy(this.at[0] - x, this.at[1] - y);
-      this.#frame.blame(event.timeStamp, "pan");
+      this.#state.viewport.panBy(this.at[0] - x, this.at[1] - y);
+      this.#caused(event.timeStamp, "pan");
     } else {
       this.#tool().hover(press);
-      this.#frame.blame(event.timeStamp, "hover");
+      this.#caused(event.timeStamp, "hover");
     }
   }
 
@@ -123,7 +123,7 @@ export class Pointer {
     if (this.#pressed && event.button === 0) {
       this.#pressed = false;
       this.#tool().up(press);
-      this.#frame.blame(event.timeStamp, "release");
+      this.#caused(event.timeStamp, "release");
     }
     if (event.buttons === 0) this.#panning = false;
     this.cursor();
@@ -140,8 +140,8 @@ export class Pointer {
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
     const speed = event.ctrlKey ? 6 * WHEEL_SPEED : WHEEL_SPEED;
-    this.#desk.lens.zoomAt(...this.at, Math.exp(-pixels * speed));
-    this.#frame.blame(event.timeStamp, "zoom");
+    this.#state.viewport.zoomAt(...this.at, Math.exp(-pixels * speed));
+    this.#caused(event.timeStamp, "zoom");
   }
 
   /** Shows what a press would do. */

@@ -9,29 +9,29 @@ import { panTool } from "./tools/pan.js";
 import { PolygonTool } from "./tools/polygon.js";
 import { SelectTool } from "./tools/select.js";
 
-/** @typedef {import("../state/desk.js").Desk} Desk */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tools/tool.js").Tool} Tool */
 
 export class Toolbox {
   /** @type {Record<string, Tool>} */
   #tools;
-  #desk;
+  #state;
   #changed;
   /** The tool in hand. @type {Tool} */
   tool;
 
   /**
-   * @param {Desk} desk
+   * @param {EditorState} state
    * @param {() => void} changed  another tool is in hand
    */
-  constructor(desk, changed) {
-    this.#desk = desk;
+  constructor(state, changed) {
+    this.#state = state;
     this.#changed = changed;
     this.#tools = {
-      select: new SelectTool(desk),
-      polygon: new PolygonTool(desk, () => this.use("select")),
-      circle: new CircleTool(desk),
-      pan: panTool(desk),
+      select: new SelectTool(state),
+      polygon: new PolygonTool(state, () => this.use("select")),
+      circle: new CircleTool(state),
+      pan: panTool(state),
     };
     this.tool = this.#tools.select;
   }
@@ -40,9 +40,9 @@ export class Toolbox {
   use(name) {
     if (!Object.hasOwn(this.#tools, name) || this.tool.name === name) return;
     this.tool.cancel();
-    this.#desk.settle();
+    this.#state.commitDrafts();
     this.tool = this.#tools[name];
-    this.#desk.hover(null);
+    this.#state.selection.hover(null);
     this.#changed();
   }
 }

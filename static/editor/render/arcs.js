@@ -5,13 +5,14 @@
  * @module
  */
 
+import { boundsOfPoints, joinedAll } from "../geometry/bounds.js";
+import { toScreen } from "../geometry/view.js";
 import { ARCS, CASING, COLOURS } from "./palette.js";
 import { strokeCased, traceRing } from "./paths.js";
-import { joined, toScreen } from "../geometry/view.js";
 
-/** @typedef {import("../protocol.js").Fit} Fit */
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("../protocol.js").Fit} Fit */
 /** @typedef {CanvasRenderingContext2D} Context */
 
 const ARC_PX = 4;
@@ -53,17 +54,10 @@ export function drawUncertainty(context, view, { centre, centre_sd }) {
 
 /** What all that covers, image pixels. @type {(fit: Fit) => Bounds | null} */
 export function reachOfFit({ arcs, centre, centre_sd }) {
-  const boxes = arcs.map(({ points }) => boxOf(points));
+  const boxes = arcs.map(({ points }) => boundsOfPoints(points));
   if (centre && centre_sd) {
     const [[x, y], [sx, sy]] = [centre, centre_sd];
     boxes.push({ x0: x - sx, y0: y - sy, x1: x + sx, y1: y + sy });
   }
-  return boxes.length ? boxes.reduce(joined) : null;
-}
-
-/** @type {(points: number[]) => Bounds} */
-function boxOf(points) {
-  const xs = points.filter((_, i) => i % 2 === 0);
-  const ys = points.filter((_, i) => i % 2 === 1);
-  return { x0: Math.min(...xs), y0: Math.min(...ys), x1: Math.max(...xs), y1: Math.max(...ys) };
+  return joinedAll(boxes);
 }

@@ -1,5 +1,5 @@
 /**
- * A picture that is drawn off screen and shown as a bitmap. A browser that composes in software copies every
+ * A canvas that is drawn off screen and shown as a bitmap. A browser that composes in software copies every
  * canvas in sight for each frame, drawn on or not; a bitmap it copies once.
  *
  * @module
@@ -7,13 +7,15 @@
 
 /** @typedef {import("../geometry/view.js").Size} Size */
 
-export class Sheet {
+export class BitmapCanvas {
   /** On screen. */
   canvas = document.createElement("canvas");
   #screen;
-  #drawn = drawable();
+  /** Off screen. */
+  #context = offscreenContext();
   /** @type {Size} */
   #size = { width: 0, height: 0 };
+  /** Something is drawn off screen that is not shown yet. */
   #fresh = false;
   /** Drawn elsewhere, to be shown as it is. @type {ImageBitmap | null} */
   #bitmap = null;
@@ -27,42 +29,42 @@ export class Sheet {
     host.append(this.canvas);
   }
 
-  /** To draw on; `show` brings it to the screen. */
+  /** To draw on what is there; `show` brings it to the screen. */
   get context() {
     if (this.#bitmap) this.#copy(this.#bitmap);
     else if (!this.#fresh) this.#copy(this.canvas);
     this.#bitmap?.close();
     this.#bitmap = null;
     this.#fresh = true;
-    return this.#drawn;
+    return this.#context;
   }
 
-  /** What is shown is gone from the canvas that it was drawn on. @type {(picture: CanvasImageSource) => void} */
+  /** A canvas is empty once its bitmap is shown. @type {(picture: CanvasImageSource) => void} */
   #copy(picture) {
-    this.#drawn.save();
-    this.#drawn.resetTransform();
-    this.#drawn.drawImage(picture, 0, 0);
-    this.#drawn.restore();
+    this.#context.save();
+    this.#context.resetTransform();
+    this.#context.drawImage(picture, 0, 0);
+    this.#context.restore();
   }
 
   /**
-   * An empty sheet in the place of the one drawn on so far; the screen keeps that until `show`.
+   * Starts an empty drawing; the screen keeps the old one until `show`.
    *
    * @param {Size} size  CSS pixels
    * @param {number} ratio  device pixels per CSS pixel
    */
-  cut(size, ratio) {
-    const { canvas } = this.#drawn;
+  clear(size, ratio) {
+    const { canvas } = this.#context;
     canvas.width = Math.round(size.width * ratio);
     canvas.height = Math.round(size.height * ratio);
     this.#size = size;
     this.#fresh = true;
     this.#bitmap?.close();
     this.#bitmap = null;
-    this.#drawn.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.#context.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** A picture drawn elsewhere, as large as the sheet; the sheet has it from now on. @type {(bitmap: ImageBitmap) => void} */
+  /** Takes a picture drawn elsewhere, as large as the canvas; it belongs to the canvas from now on. @type {(bitmap: ImageBitmap) => void} */
   put(bitmap) {
     this.#bitmap = bitmap;
   }
@@ -71,7 +73,7 @@ export class Sheet {
   show() {
     if (!this.#fresh) return;
     this.#fresh = false;
-    const { canvas } = this.#drawn;
+    const { canvas } = this.#context;
     if (this.canvas.width !== canvas.width) this.canvas.width = canvas.width;
     if (this.canvas.height !== canvas.height) this.canvas.height = canvas.height;
     this.#screen.transferFromImageBitmap(this.#bitmap ?? canvas.transferToImageBitmap());
@@ -81,7 +83,7 @@ export class Sheet {
   }
 }
 
-function drawable() {
+function offscreenContext() {
   const context = new OffscreenCanvas(1, 1).getContext("2d");
   if (!context) throw new Error("This browser cannot draw on a canvas.");
   return context;

@@ -5,19 +5,21 @@
  * @module
  */
 
+import { reachOf } from "../geometry/shapes.js";
+import { CachedPicture } from "./cached_picture.js";
 import { Overlay } from "./overlay.js";
-import { paint, reachOf } from "./paint.js";
-import { Studio } from "./paint_orders.js";
-import { Surface } from "./surface.js";
+import { nearTo, paint } from "./paint.js";
+import { PaintOrders } from "./paint_orders.js";
 
-/** @typedef {import("../state/desk.js").Desk} Desk */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./overlay.js").Sketch} Sketch */
 /** @typedef {import("./photos.js").Photos} Photos */
-/** @typedef {import("../state/store.js").Shape} Shape */
 /** @typedef {{event: number, drawn: number, draw_ms: number, kind: string}} Timing */
 
 const TIMINGS_KEPT = 4096;
-const MANY_RECTS = 60;
+/** From so many shapes on, a new picture is sooner there than so many repairs. */
+const MANY = 60;
 
 export class Frame {
   /** @type {Timing[]} */
@@ -30,41 +32,51 @@ export class Frame {
   #photo;
   #caps;
   #overlay;
-  #desk;
+  #state;
   #sketches;
 
   /**
    * @param {HTMLElement} host
-   * @param {Desk} desk
+   * @param {EditorState} state
    * @param {Photos} photos
    * @param {() => Sketch[]} sketches
    */
-  constructor(host, desk, photos, sketches) {
-    this.#desk = desk;
+  constructor(host, state, photos, sketches) {
+    this.#state = state;
     this.#sketches = sketches;
-    const studio = new Studio();
-    this.#photo = new Surface(host, {
+    const ready = () => this.ask();
+    this.#photo = new CachedPicture(host, {
       paint: (context, view, region) => photos.paint(context, view, region),
-      ready: () => this.ask(),
+      ready,
     });
-    this.#caps = new Surface(host, {
-      paint: (context, view, region) => paint(context, view, region, this.#picture()),
-      order: (frame) => studio.order(frame, { ...this.#picture(), shapes: desk.items, lifted: desk.lifted }),
-      ready: () => this.ask(),
-    });
+    this.#caps = this.#capsIn(host, ready);
     this.#overlay = new Overlay(host);
-    desk.signals.overlay.listen(() => this.ask());
-    desk.signals.picture.listen(() => this.redraw());
-    desk.signals.shapes.listen((shapes) => this.#repair(shapes));
+    state.signals.overlay.listen(() => this.ask());
+    state.signals.picture.listen(() => this.redraw());
+    state.signals.shapes.listen((shapes) => this.#repair(shapes));
   }
 
-  #picture() {
-    const { items, lifted, layers, selected } = this.#desk;
-    return { shapes: items.filter(({ uid }) => !lifted.has(uid)), visible: layers, selected };
+  /** The picture of all caps but those that the overlay shows. @type {(host: HTMLElement, ready: () => void) => CachedPicture} */
+  #capsIn(host, ready) {
+    const { items, layers, selection } = this.#state;
+    const orders = new PaintOrders();
+    return new CachedPicture(host, {
+      paint: (context, view, region) => {
+        const { lifted } = this.#state;
+        const shapes = items.near(nearTo(region, view)).filter(({ uid }) => !lifted.has(uid));
+        paint(context, view, region, { shapes, visible: layers.visible, selected: selection.uids });
+      },
+      order: (extent) => {
+        const { lifted } = this.#state;
+        const { visible } = layers;
+        return orders.order(extent, { shapes: items.all, visible, selected: selection.uids, lifted });
+      },
+      ready,
+    });
   }
 
-  /** @type {(event: number, kind: string) => void} */
-  blame(event, kind) {
+  /** An event came that changes what is seen; the timing of the next frame is counted from it. @type {(event: number, kind: string) => void} */
+  causedBy(event, kind) {
     this.#cause ??= { event, kind };
     this.ask();
   }
@@ -106,7 +118,7 @@ export class Frame {
 
   /** @type {(shapes: Shape[]) => void} */
   #repair(shapes) {
-    if (shapes.length > MANY_RECTS) this.#caps.discard();
+    if (shapes.length > MANY) this.#caps.discard();
     else this.#caps.repair(shapes.flatMap((shape) => reachOf(shape) ?? []));
     this.ask();
   }
@@ -114,15 +126,15 @@ export class Frame {
   #draw() {
     this.#asked = false;
     const started = performance.now();
-    const { lens, layers, hidden } = this.#desk;
-    const { view, size } = lens;
+    const { viewport, layers } = this.#state;
+    const { view, size } = viewport;
     if (size.width < 1 || size.height < 1) return;
     const ratio = window.devicePixelRatio;
-    this.#photo.visible = layers.photo;
-    this.#caps.visible = !hidden;
+    this.#photo.visible = layers.visible.photo;
+    this.#caps.visible = !layers.allHidden;
     this.#photo.show(view, size, ratio);
     const complete = this.#caps.show(view, size, ratio);
-    this.#overlay.draw(this.#desk, ratio, this.#sketches());
+    this.#overlay.draw(this.#state, ratio, this.#sketches());
     this.#note(started);
     if (complete) for (const then of this.#whenComplete.splice(0)) then();
   }

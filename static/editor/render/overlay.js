@@ -5,30 +5,29 @@
  * @module
  */
 
-import { drawArcs, drawUncertainty, reachOfFit } from "./arcs.js";
-import { boundsOfWhole, measure, placedWhole, ringsOf } from "../geometry/caps.js";
-import { Glass } from "./small_canvas.js";
-import { rimPoints } from "../geometry/handles.js";
-import { CASING, COLOURS, FILLS } from "./palette.js";
-import { reachOf } from "./paint.js";
-import { strokeCased, traceCross, traceRing, traceWhole } from "./paths.js";
-import { isPrediction } from "../state/store.js";
+import { joinedAll } from "../geometry/bounds.js";
+import { boundsOfWhole, placedWhole, ringsOf } from "../geometry/caps.js";
+import { HANDLE_GAP_PX, rimPoints } from "../geometry/handles.js";
+import { isPrediction, reachOf } from "../geometry/shapes.js";
 import { spacedVertices } from "../geometry/vertices.js";
-import { joined, toScreen } from "../geometry/view.js";
+import { toScreen } from "../geometry/view.js";
+import { drawArcs, drawUncertainty, reachOfFit } from "./arcs.js";
+import { CASING, COLOURS, FILLS } from "./palette.js";
+import { strokeCased, traceCross, traceRing, traceWhole } from "./paths.js";
+import { SmallCanvas } from "./small_canvas.js";
 
-/** @typedef {import("../state/desk.js").Desk} Desk */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/handles.js").Handle} Handle */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Point} Point */
-/** @typedef {import("../state/store.js").Shape} Shape */
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
-/** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {CanvasRenderingContext2D} Context */
 /** @typedef {(context: Context, view: View) => boolean} Sketch  draws, and says whether there was anything to draw */
 
-/** Handles no closer than this, or they would hide the rim they are on. */
-const HANDLE_GAP_PX = 13;
-const REACH_PX = 28;
+/** How far from an outline anything is drawn. */
+const AROUND_PX = 28;
 
 export class Overlay {
   #caps;
@@ -36,53 +35,42 @@ export class Overlay {
 
   /** @param {HTMLElement} host */
   constructor(host) {
-    this.#caps = new Glass(host);
-    this.#sketches = new Glass(host);
+    this.#caps = new SmallCanvas(host);
+    this.#sketches = new SmallCanvas(host);
   }
 
   /**
-   * @param {Desk} desk
+   * @param {EditorState} state
    * @param {number} ratio
    * @param {Sketch[]} sketches  of the tool in hand, of a conflict
    */
-  draw(desk, ratio, sketches) {
-    this.#drawCaps(desk, ratio);
-    this.#drawSketches(desk, ratio, sketches);
-  }
-
-  /** @type {(desk: Desk, ratio: number) => void} */
-  #drawCaps(desk, ratio) {
-    const shapes = desk.hidden ? [] : hoveredAndLifted(desk);
-    const context = this.#caps.lay(onScreen(desk.lens.view, reachOfAll(shapes, desk)), desk.lens.size, ratio);
-    if (context) {
-      this.#caps.soil();
-      drawShapes(context, shapes, desk);
-    }
-    this.#caps.settle();
-  }
-
-  /** @type {(desk: Desk, ratio: number, sketches: Sketch[]) => void} */
-  #drawSketches({ hidden, lens }, ratio, sketches) {
-    const { size, view } = lens;
-    const context = this.#sketches.lay({ x0: 0, y0: 0, x1: size.width, y1: size.height }, size, ratio);
-    if (context && !hidden) for (const sketch of sketches) if (sketch(context, view)) this.#sketches.soil();
-    this.#sketches.settle();
+  draw(state, ratio, sketches) {
+    const { view, size } = state.viewport;
+    const hidden = state.layers.allHidden;
+    const shapes = hidden ? [] : hoveredAndLifted(state);
+    this.#caps.draw(onScreen(view, reachOfAll(shapes, state)), size, ratio, (context) => {
+      drawShapes(context, shapes, state);
+      return true;
+    });
+    const everywhere = { x0: 0, y0: 0, x1: size.width, y1: size.height };
+    this.#sketches.draw(hidden ? null : everywhere, size, ratio, (context) =>
+      sketches.map((sketch) => sketch(context, view)).includes(true),
+    );
   }
 }
 
-/** What is to be drawn of them, image pixels. @type {(shapes: Shape[], desk: Desk) => Bounds | null} */
+/** What is to be drawn of them, image pixels. @type {(shapes: Shape[], state: EditorState) => Bounds | null} */
 function reachOfAll(shapes, { explanation, layers }) {
   const all = shapes.flatMap((shape) => reachOf(shape) ?? []);
-  const explained = shapes.length && explanation && layers.whole ? reachOfFit(explanation) : null;
-  if (explained) all.push(explained);
-  return all.length ? all.reduce(joined) : null;
+  const explained = shapes.length && explanation && layers.visible.whole ? reachOfFit(explanation) : null;
+  return joinedAll(explained ? [...all, explained] : all);
 }
 
-/** @type {(desk: Desk) => Shape[]} */
-function hoveredAndLifted(desk) {
-  const uids = desk.lifted;
-  if (desk.hovered) uids.add(desk.hovered);
-  return [...uids].flatMap((uid) => desk.drafts.get(uid) ?? desk.item(uid) ?? []);
+/** @type {(state: EditorState) => Shape[]} */
+function hoveredAndLifted(state) {
+  const uids = state.lifted;
+  if (state.selection.hovered) uids.add(state.selection.hovered);
+  return [...uids].flatMap((uid) => state.shape(uid) ?? []);
 }
 
 /** @type {(view: View, bounds: Bounds | null) => Bounds | null} */
@@ -90,15 +78,15 @@ function onScreen(view, bounds) {
   if (!bounds) return null;
   const [x0, y0] = toScreen(view, bounds.x0, bounds.y0);
   const [x1, y1] = toScreen(view, bounds.x1, bounds.y1);
-  return { x0: x0 - REACH_PX, y0: y0 - REACH_PX, x1: x1 + REACH_PX, y1: y1 + REACH_PX };
+  return { x0: x0 - AROUND_PX, y0: y0 - AROUND_PX, x1: x1 + AROUND_PX, y1: y1 + AROUND_PX };
 }
 
-/** @type {(context: Context, shapes: Shape[], desk: Desk) => void} */
-function drawShapes(context, shapes, desk) {
+/** @type {(context: Context, shapes: Shape[], state: EditorState) => void} */
+function drawShapes(context, shapes, state) {
+  const { lifted } = state;
   for (const shape of shapes) {
-    const only = shape.uid === desk.hovered && !desk.lifted.has(shape.uid);
-    if (only) drawHovered(context, desk.lens.view, shape);
-    else drawLifted(context, desk.lens.view, shape, desk);
+    if (lifted.has(shape.uid)) drawLifted(context, shape, state);
+    else drawHovered(context, state.viewport.view, shape);
   }
 }
 
@@ -113,25 +101,29 @@ function drawHovered(context, view, shape) {
   strokeCased(context, { colour: COLOURS.selected, width: 1.5, casing: CASING });
 }
 
-/** @type {(context: Context, view: View, shape: Shape, desk: Desk) => void} */
-function drawLifted(context, view, shape, desk) {
-  const { cap } = shape;
-  const selected = desk.selected.has(shape.uid);
+/** @type {(context: Context, shape: Shape, state: EditorState) => void} */
+function drawLifted(context, shape, { viewport, selection, drafts, layers, explanation }) {
+  const { view } = viewport;
+  const explained = selection.has(shape.uid) && layers.visible.whole ? explanation : null;
+  drawVisible(context, view, shape, { filled: layers.visible.fill, changed: drafts.has(shape.uid) });
+  if (explained) drawArcs(context, view, explained);
+  drawMark(context, view, shape);
+  drawFit(context, view, shape);
+  if (explained) drawUncertainty(context, view, explained);
+  if (selection.soleUid === shape.uid) drawHandles(context, view, shape, selection.handle);
+}
+
+/** @type {(context: Context, view: View, shape: Shape, how: {filled: boolean, changed: boolean}) => void} */
+function drawVisible(context, view, shape, { filled, changed }) {
   context.beginPath();
-  for (const ring of cap.visible) traceRing(context, view, ring);
-  if (desk.layers.fill) {
+  for (const ring of shape.cap.visible) traceRing(context, view, ring);
+  if (filled) {
     context.fillStyle = FILLS.selected;
     context.fill();
   }
-  if (isPrediction(shape) && !desk.drafts.has(shape.uid)) context.setLineDash([5, 4]);
+  if (isPrediction(shape) && !changed) context.setLineDash([5, 4]);
   strokeCased(context, { colour: COLOURS.outline, width: 1.5, casing: CASING });
   context.setLineDash([]);
-  const explanation = selected && desk.layers.whole ? desk.explanation : null;
-  if (explanation) drawArcs(context, view, explanation);
-  drawMark(context, view, shape);
-  drawFit(context, view, shape);
-  if (explanation) drawUncertainty(context, view, explanation);
-  if (selected && desk.selected.size === 1) drawHandles(context, view, shape, desk);
 }
 
 /** @type {(context: Context, view: View, shape: Shape) => void} */
@@ -158,9 +150,8 @@ function drawFit(context, view, { cap, whole, centre }) {
   strokeCased(context, { colour: cap.mark ? COLOURS.mark : COLOURS.whole, width: 1.5, casing: CASING });
 }
 
-/** @type {(context: Context, view: View, shape: Shape, desk: Desk) => void} */
-function drawHandles(context, view, { cap }, desk) {
-  const active = desk.active;
+/** @type {(context: Context, view: View, shape: Shape, active: Handle | null) => void} */
+function drawHandles(context, view, { cap }, active) {
   const gap = HANDLE_GAP_PX / view.scale;
   context.beginPath();
   for (const ring of ringsOf(cap)) {
@@ -212,17 +203,4 @@ function paintHandles(context, colour) {
   context.strokeStyle = "#0b1220";
   context.lineWidth = 1;
   context.stroke();
-}
-
-/**
- * Whether a vertex of the cap has room for a handle of its own at this scale.
- *
- * @type {(shape: Shape, scale: number) => boolean}
- */
-export function handlesAreApart({ cap }, scale) {
-  const { bounds } = measure(cap);
-  if (!bounds) return false;
-  const count = ringsOf(cap).reduce((sum, ring) => sum + ring.length / 2, 0);
-  const around = 3 * Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0) * scale;
-  return around / Math.max(count, 1) >= HANDLE_GAP_PX;
 }

@@ -5,29 +5,31 @@
  * @module
  */
 
-import { boundsOfWhole, measure } from "../geometry/caps.js";
-import { COLOURS, CASING, FILLS, SHADE } from "./palette.js";
+import { grown, overlap } from "../geometry/bounds.js";
+import { isPrediction, reachOf } from "../geometry/shapes.js";
+import { toScreen } from "../geometry/view.js";
+import { CASING, COLOURS, FILLS, SHADE } from "./palette.js";
 import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole } from "./paths.js";
-import { isPrediction } from "../state/store.js";
-import { grown, joined, overlap, toScreen } from "../geometry/view.js";
 
-/** @typedef {import("./paths.js").Context} Context */
-/** @typedef {import("../state/store.js").Shape} Shape */
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("./paths.js").Context} Context */
 /** @typedef {Record<string, boolean>} Visible */
 /** @typedef {"prediction" | "ignored" | "outline" | "selected"} Style */
 
 const SMALL_PX = 7;
 const LABEL_PX = 30;
+/** How far from the outline anything of a shape may be drawn: lines, the cross, a label. */
+const AROUND_PX = 24;
 /** From this many shapes on, lines are a device pixel wide: five times quicker to draw in software. */
 const MANY = 400;
 
 /**
  * @typedef {Object} Picture
- * @property {Shape[]} shapes
+ * @property {Shape[]} shapes  those farther away may be left out
  * @property {Visible} visible  which layers
- * @property {Set<string>} selected
+ * @property {ReadonlySet<string>} selected
  */
 
 /**
@@ -47,7 +49,12 @@ export function paint(context, view, region, { shapes, visible, selected }) {
   for (const [style, group] of groups) paintGroup(context, view, group, { style, visible, fine });
 }
 
-/** @type {(shapes: Shape[], view: View, region: Bounds, selected: Set<string>, visible: Visible) => Map<Style, Shape[]>} */
+/** The rectangle whose shapes may show in `region`, image pixels. @type {(region: Bounds, view: View) => Bounds} */
+export function nearTo(region, { scale }) {
+  return grown(region, AROUND_PX / scale);
+}
+
+/** @type {(shapes: Shape[], view: View, region: Bounds, selected: ReadonlySet<string>, visible: Visible) => Map<Style, Shape[]>} */
 function groupsOf(shapes, view, region, selected, visible) {
   /** @type {Map<Style, Shape[]>} */
   const groups = new Map([
@@ -56,7 +63,7 @@ function groupsOf(shapes, view, region, selected, visible) {
     ["outline", []],
     ["selected", []],
   ]);
-  const near = grown(region, 24 / view.scale);
+  const near = nearTo(region, view);
   for (const shape of shapes) {
     const bounds = reachOf(shape);
     if (!bounds || !overlap(bounds, near)) continue;
@@ -67,18 +74,11 @@ function groupsOf(shapes, view, region, selected, visible) {
   return groups;
 }
 
-/** @type {(shape: Shape, selected: Set<string>) => Style} */
+/** @type {(shape: Shape, selected: ReadonlySet<string>) => Style} */
 function styleOf(shape, selected) {
   if (selected.has(shape.uid)) return "selected";
   if (isPrediction(shape)) return "prediction";
   return shape.cap.ignored ? "ignored" : "outline";
-}
-
-/** Everything a shape may put on the canvas. @type {(shape: Shape) => Bounds | null} */
-export function reachOf({ cap, whole }) {
-  const { bounds } = measure(cap);
-  if (!whole) return bounds;
-  return bounds ? joined(bounds, boundsOfWhole(whole)) : boundsOfWhole(whole);
 }
 
 /** @type {(context: Context, view: View, shapes: Shape[], how: {style: Style, visible: Visible, fine: boolean}) => void} */
@@ -121,15 +121,15 @@ function fillShapes(context, view, shapes, fill) {
 function hatchShapes(context, view, shapes) {
   if (shapes.length === 0) return;
   const tile = new OffscreenCanvas(6, 6);
-  const pen = tile.getContext("2d");
-  if (!pen) return;
-  pen.strokeStyle = FILLS.ignored;
-  pen.lineWidth = 1.5;
+  const lines = tile.getContext("2d");
+  if (!lines) return;
+  lines.strokeStyle = FILLS.ignored;
+  lines.lineWidth = 1.5;
   for (const offset of [-6, 0, 6]) {
-    pen.moveTo(offset - 1, 7);
-    pen.lineTo(offset + 7, -1);
+    lines.moveTo(offset - 1, 7);
+    lines.lineTo(offset + 7, -1);
   }
-  pen.stroke();
+  lines.stroke();
   const pattern = context.createPattern(tile, "repeat");
   if (pattern) fillShapes(context, view, shapes, pattern);
 }

@@ -4,12 +4,12 @@
  * @module
  */
 
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./paint.js").Picture} Picture */
 /** @typedef {import("./paint_worker.js").Order} Order */
-/** @typedef {import("../state/store.js").Shape} Shape */
-/** @typedef {import("./surface.js").Frame} Frame */
+/** @typedef {import("./cached_picture.js").Extent} Extent */
 
-export class Studio {
+export class PaintOrders {
   #worker = new Worker(new URL("./paint_worker.js", import.meta.url), { type: "module" });
   /** What the worker has. @type {Map<string, Shape>} */
   #sent = new Map();
@@ -25,18 +25,18 @@ export class Studio {
   }
 
   /**
-   * @param {Frame} frame
+   * @param {Extent} extent
    * @param {Picture & {lifted: Set<string>}} picture  with every shape, lifted ones too
    * @returns {Promise<ImageBitmap>}
    */
-  order(frame, { shapes, visible, selected, lifted }) {
+  order(extent, { shapes, visible, selected, lifted }) {
     const id = this.#next++;
     const fresh = shapes.filter((shape) => this.#sent.get(shape.uid) !== shape);
     const now = new Map(shapes.map((shape) => [shape.uid, shape]));
     const gone = [...this.#sent.keys()].filter((uid) => !now.has(uid));
     this.#sent = now;
     /** @type {Order} */
-    const order = { id, ...frame, fresh, gone, visible, lifted: [...lifted], selected: [...selected] };
+    const order = { id, ...extent, fresh, gone, visible, lifted: [...lifted], selected: [...selected] };
     this.#worker.postMessage(order);
     return new Promise((resolve) => this.#orders.set(id, resolve));
   }

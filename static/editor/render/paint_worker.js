@@ -5,12 +5,12 @@
  * @module
  */
 
-import { paint } from "./paint.js";
 import { visibleBounds } from "../geometry/view.js";
+import { paint } from "./paint.js";
 
-/** @typedef {import("./paint.js").Visible} Visible */
-/** @typedef {import("../state/store.js").Shape} Shape */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("./paint.js").Visible} Visible */
 
 /**
  * @typedef {Object} Order

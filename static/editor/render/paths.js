@@ -8,8 +8,8 @@
 import { axesOf } from "../geometry/caps.js";
 import { SHADE } from "./palette.js";
 
-/** @typedef {import("../protocol.js").Whole} Whole */
 /** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("../protocol.js").Whole} Whole */
 /** @typedef {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} Context */
 
 const CLOSEST = 1.25;

@@ -5,7 +5,7 @@
  * @module
  */
 
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {import("../geometry/view.js").View} View */
 

@@ -5,19 +5,20 @@
  * @module
  */
 
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {{left: number, top: number, width: number, height: number, ratio: number}} Area  device pixels */
 
-/** Its sides are multiples of this, CSS pixels, so that it rarely has to be cut anew. */
-const PANE_PX = 128;
+/** Its sides are multiples of this, CSS pixels, so that it rarely takes another size. */
+const STEP_PX = 128;
 
-export class Glass {
+export class SmallCanvas {
   #canvas = document.createElement("canvas");
   #context;
   /** @type {Area} */
   #area = { left: 0, top: 0, width: 0, height: 0, ratio: 1 };
-  #soiled = false;
+  /** Something is drawn on it. */
+  #drawn = false;
 
   /** @param {HTMLElement} host */
   constructor(host) {
@@ -28,40 +29,31 @@ export class Glass {
   }
 
   /**
-   * Wipes the glass and lays it over `bounds`, as far as they are in the viewport; `settle` ends the drawing.
+   * Draws on an empty canvas over `bounds`, as far as they are in the viewport. Where nothing was drawn the
+   * canvas is hidden: one in sight costs, drawn on or not.
    *
-   * @param {Bounds | null} bounds  CSS pixels of the viewport; null takes the glass away
+   * @param {Bounds | null} bounds  CSS pixels of the viewport; null for nothing
    * @param {Size} size  of the viewport
    * @param {number} ratio  device pixels per CSS pixel
-   * @returns {CanvasRenderingContext2D | null}  to draw on in CSS pixels of the viewport; null: nothing is to be seen
+   * @param {(context: CanvasRenderingContext2D) => boolean} paint  draws in CSS pixels of the viewport, and
+   *   says whether there was anything to draw
    */
-  lay(bounds, size, ratio) {
+  draw(bounds, size, ratio, paint) {
     const area = bounds && areaOf(bounds, size, ratio);
-    if (!area || this.#fits(area)) this.#wipe();
-    else this.#cut(area);
-    return area && this.#context;
-  }
-
-  /** Something has been drawn on it. */
-  soil() {
-    this.#soiled = true;
-  }
-
-  /** Takes a glass that nothing has been drawn on away: a canvas in sight costs, drawn on or not. */
-  settle() {
-    this.#canvas.hidden = !this.#soiled;
+    if (area && !this.#covers(area)) this.#move(area);
+    else if (this.#drawn) this.#clear();
+    this.#drawn = area !== null && paint(this.#context);
+    this.#canvas.hidden = !this.#drawn;
   }
 
   /** @type {(area: Area) => boolean} */
-  #fits(area) {
+  #covers(area) {
     const now = this.#area;
     const moved = area.left !== now.left || area.top !== now.top;
     return !moved && area.width === now.width && area.height === now.height && area.ratio === now.ratio;
   }
 
-  #wipe() {
-    if (!this.#soiled) return;
-    this.#soiled = false;
+  #clear() {
     const context = this.#context;
     context.save();
     context.resetTransform();
@@ -69,12 +61,11 @@ export class Glass {
     context.restore();
   }
 
-  /** @type {(area: Area) => void} */
-  #cut(area) {
+  /** Setting the size of a canvas clears it. @type {(area: Area) => void} */
+  #move(area) {
     const { left, top, width, height, ratio } = area;
     const { style } = this.#canvas;
     this.#area = area;
-    this.#soiled = false;
     this.#canvas.width = width;
     this.#canvas.height = height;
     style.width = `${width / ratio}px`;
@@ -87,17 +78,17 @@ export class Glass {
   }
 }
 
-/** Of the panes that the bounds touch. @type {(bounds: Bounds, size: Size, ratio: number) => Area | null} */
+/** What of the viewport the bounds touch, in whole steps. @type {(bounds: Bounds, size: Size, ratio: number) => Area | null} */
 function areaOf({ x0, y0, x1, y1 }, { width, height }, ratio) {
-  const [left, right] = panes(x0, x1, width, ratio);
-  const [top, bottom] = panes(y0, y1, height, ratio);
+  const [left, right] = inSteps(x0, x1, width, ratio);
+  const [top, bottom] = inSteps(y0, y1, height, ratio);
   if (right <= left || bottom <= top) return null;
   return { left, top, width: right - left, height: bottom - top, ratio };
 }
 
 /** @type {(low: number, high: number, room: number, ratio: number) => [number, number]} */
-function panes(low, high, room, ratio) {
-  const start = Math.max(0, Math.floor(low / PANE_PX) * PANE_PX);
-  const end = Math.min(room, Math.ceil(high / PANE_PX) * PANE_PX);
+function inSteps(low, high, room, ratio) {
+  const start = Math.max(0, Math.floor(low / STEP_PX) * STEP_PX);
+  const end = Math.min(room, Math.ceil(high / STEP_PX) * STEP_PX);
   return [Math.round(start * ratio), Math.round(end * ratio)];
 }

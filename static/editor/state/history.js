@@ -4,10 +4,10 @@
  * @module
  */
 
-import { inverse } from "./store.js";
+import { inverse } from "./changes.js";
 
-/** @typedef {import("./store.js").Change} Change */
-/** @typedef {import("./store.js").Shape} Shape */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("./changes.js").Change} Change */
 
 export class History {
   /** @type {Change[][]} */

@@ -1,6 +1,6 @@
 /**
- * Asks the server for the whole outline of a cap: the latest wins, one question at a
- * time.
+ * Asks the server for the whole outline of a cap: one question at a time, and of those that wait only the
+ * latest.
  *
  * @module
  */
@@ -12,7 +12,7 @@
 
 const PATIENCE_MS = 2000;
 
-export class Refits {
+export class FitRequests {
   /** @type {Question | null} */
   #next = null;
   /** @type {Question | null} */

@@ -1,69 +1,69 @@
 /**
- * Keeps the whole outline of the cap at hand up to date, and says how it came about.
+ * Keeps the whole outline of the one selected cap up to date while the cap is changed.
  *
  * @module
  */
 
-import { captionIn } from "../ui/caption.js";
 import { placedWhole } from "../geometry/caps.js";
-import { Refits } from "./fit_requests.js";
+import { FitRequests } from "./fit_requests.js";
 
-/** @typedef {import("../state/desk.js").Desk} Desk */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Fit} Fit */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
-/** @typedef {import("../state/store.js").Shape} Shape */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 
-export class Fitting {
+export class LiveFit {
   /** What the last question was about. @type {Cap | null} */
   #asked = null;
-  #desk;
-  #refits;
-  #caption;
+  #state;
+  #requests;
+  #told;
 
   /**
-   * @param {HTMLElement} host
-   * @param {Desk} desk
-   * @param {(message: ToServer) => boolean} send
+   * @param {EditorState} state
+   * @param {Object} wires
+   * @param {(message: ToServer) => boolean} wires.send
+   * @param {(explanation: Fit | null) => void} wires.told  how the outline at hand came about, if that is known
    */
-  constructor(host, desk, send) {
-    this.#desk = desk;
-    this.#refits = new Refits(send);
-    this.#caption = captionIn(host);
-    desk.signals.draft.listen((shape) => this.#ask(shape));
-    desk.signals.shapes.listen(() => this.#look());
-    desk.signals.selection.listen(() => this.#look());
+  constructor(state, { send, told }) {
+    this.#state = state;
+    this.#requests = new FitRequests(send);
+    this.#told = told;
+    state.signals.draft.listen((shape) => this.#ask(shape));
+    state.signals.shapes.listen(() => this.#look());
+    state.signals.selection.listen(() => this.#look());
   }
 
   /** Nothing that was asked is waited for any longer. */
   forget() {
-    this.#refits.forget();
+    this.#requests.forget();
     this.#asked = null;
   }
 
   /** @type {(fit: Fit) => void} */
   take(fit) {
-    const desk = this.#desk;
-    if (!this.#refits.take(fit)) return;
-    const draft = desk.drafts.get(fit.annotation);
-    if (draft) desk.drafts.set(fit.annotation, { ...draft, whole: fit.whole, centre: fit.centre });
-    desk.fitting = fit;
-    this.#caption(desk.explanation);
-    desk.signals.overlay.emit();
+    const state = this.#state;
+    if (!this.#requests.take(fit)) return;
+    const draft = state.drafts.get(fit.annotation);
+    if (draft) state.drafts.put({ ...draft, whole: fit.whole, centre: fit.centre });
+    state.fit = fit;
+    this.#told(state.explanation);
+    state.signals.overlay.emit();
   }
 
   #look() {
-    const { sole } = this.#desk;
+    const { sole, explanation } = this.#state;
     if (sole) this.#ask(sole);
     else this.#asked = null;
-    this.#caption(this.#desk.explanation);
+    this.#told(explanation);
   }
 
   /** @type {(shape: Shape) => void} */
   #ask({ uid, cap }) {
-    const image = this.#desk.image?.id;
+    const image = this.#state.image?.id;
     if (image === undefined || cap === this.#asked || placedWhole(cap)) return;
     this.#asked = cap;
-    this.#refits.ask({ image, annotation: uid, cap });
+    this.#requests.ask({ image, annotation: uid, cap });
   }
 }

@@ -1,19 +1,25 @@
 /**
- * Edits that the server has not acknowledged, oldest first. They are kept in the browser's storage, one
- * entry a change set, so that a reload or a crash while the server is away loses nothing.
+ * Edits that the server has not acknowledged, oldest first. Each is kept in the browser's storage under a
+ * key of its own, so that a reload or a crash while the server is away loses nothing, and an
+ * acknowledgement takes one key away and writes nothing.
  *
  * @module
  */
 
-/** @typedef {import("../protocol.js").Cap} Cap */
+import { keyOf, storedUnder } from "./stored_edits.js";
+
 /** @typedef {import("../protocol.js").Edit} Edit */
-/** @typedef {{key: string, held: boolean, edits: Edit[]}} Batch */
+/** @typedef {{key: string, set: number, held: boolean, edit: Edit}} Entry  `held` back until a person has decided */
 
 export class Outbox {
-  /** @type {Batch[]} */
-  #batches = [];
-  #next = 0;
+  /** By the id of the edit, in the order of sending. @type {Map<string, Entry>} */
+  #entries = new Map();
+  /** The same by annotation. @type {Map<string, Entry[]>} */
+  #ofAnnotation = new Map();
+  /** What the storage had no room for. @type {Set<Entry>} */
   #unkept = new Set();
+  /** The number of the next change set. */
+  #next = 0;
   #storage;
   #prefix;
 
@@ -28,53 +34,74 @@ export class Outbox {
   }
 
   /**
-   * Takes over what another tab, now closed, has left unsent.
+   * Takes over what stands under a prefix: this tab's own, or that of a closed tab which has left it unsent.
    *
    * @param {string} prefix
    */
   adopt(prefix) {
-    for (const key of keysWith(this.#storage, prefix)) {
-      const edits = parsed(this.#storage?.getItem(key) ?? "");
-      if (prefix !== this.#prefix) this.#storage?.removeItem(key);
-      if (edits.length === 0) continue;
-      if (prefix === this.#prefix) {
-        this.#batches.push({ key, held: false, edits });
-        this.#next = Math.max(this.#next, Number(key.slice(prefix.length)) + 1);
-      } else {
-        this.add(edits);
-      }
+    const first = this.#next;
+    for (const { key, set, place, edits } of storedUnder(this.#storage, prefix)) {
+      edits.forEach((edit, i) => this.#put(edit, { set: first + set, place: place + i, stored: key }));
+      // Written anew before it is taken away: a crash in between leaves edits twice, which does no harm.
+      if (this.#entries.get(edits[0].id)?.key !== key) this.#take(key);
     }
   }
 
   /**
-   * Keeps one change set until it is settled.
+   * Keeps one change set until it is acknowledged.
    *
    * @param {Edit[]} edits
    */
   add(edits) {
-    const batch = { key: this.#prefix + String(this.#next++).padStart(9, "0"), held: false, edits };
-    this.#batches.push(batch);
-    this.#keep(batch);
+    const set = this.#next;
+    edits.forEach((edit, place) => this.#put(edit, { set, place }));
   }
 
-  /** The change set to send next. @returns {Batch | null} */
+  /** @type {(edit: Edit, where: {set: number, place: number, stored?: string}) => void} */
+  #put(edit, { set, place, stored }) {
+    if (this.#entries.has(edit.id)) return;
+    const entry = { key: keyOf(this.#prefix, set, place), set, held: false, edit };
+    this.#entries.set(edit.id, entry);
+    this.#ofAnnotation.set(edit.annotation, [...this.#entriesOf(edit.annotation), entry]);
+    this.#next = Math.max(this.#next, set + 1);
+    if (stored !== entry.key) this.#keep(entry);
+  }
+
+  /** @type {(uid: string) => Entry[]} */
+  #entriesOf(uid) {
+    return this.#ofAnnotation.get(uid) ?? [];
+  }
+
+  /** The change set to send next; empty when nothing is to be sent. */
   head() {
-    return this.#batches.find((batch) => !batch.held) ?? null;
+    /** @type {Entry[]} */
+    const head = [];
+    for (const entry of this.#entries.values()) {
+      if (entry.held) continue;
+      if (head.length && entry.set !== head[0].set) break;
+      head.push(entry);
+    }
+    return head.map(({ edit }) => edit);
   }
 
-  /** Everything not settled, oldest first. */
+  /** Everything not acknowledged, oldest first. */
   edits() {
-    return this.#batches.flatMap((batch) => batch.edits);
+    return [...this.#entries.values()].map(({ edit }) => edit);
   }
 
-  /** @type {(uid: string) => Edit | null} */
+  /** @type {(id: string) => Edit | null} */
+  get(id) {
+    return this.#entries.get(id)?.edit ?? null;
+  }
+
+  /** The newest edit of an annotation. @type {(uid: string) => Edit | null} */
   lastOf(uid) {
-    return this.edits().findLast((edit) => edit.annotation === uid) ?? null;
+    return this.#entriesOf(uid).at(-1)?.edit ?? null;
   }
 
-  /** The edits that wait for an acknowledgement: all but those that wait for a person. */
+  /** How many edits wait for an acknowledgement: all but those that wait for a person. */
   get waiting() {
-    return this.#batches.reduce((count, batch) => count + (batch.held ? 0 : batch.edits.length), 0);
+    return [...this.#entries.values()].filter(({ held }) => !held).length;
   }
 
   /** Whether everything that waits would survive a reload. */
@@ -82,22 +109,15 @@ export class Outbox {
     return this.#unkept.size === 0;
   }
 
-  /**
-   * The edit is settled: acknowledged, or refused for good.
-   *
-   * @param {string} id
-   */
-  settle(id) {
-    this.#filter((edit) => edit.id !== id);
+  /** Forgets an edit that is on the server's disk. @type {(id: string) => void} */
+  acknowledged(id) {
+    const entry = this.#entries.get(id);
+    if (entry) this.#forget(entry);
   }
 
-  /**
-   * Forgets every edit of one annotation.
-   *
-   * @param {string} uid
-   */
+  /** Forgets every edit of one annotation. @type {(uid: string) => void} */
   drop(uid) {
-    this.#filter((edit) => edit.annotation !== uid);
+    for (const entry of this.#entriesOf(uid)) this.#forget(entry);
   }
 
   /**
@@ -108,57 +128,41 @@ export class Outbox {
   hold(edit) {
     this.drop(edit.annotation);
     this.add([edit]);
-    this.#batches[this.#batches.length - 1].held = true;
+    for (const entry of this.#entriesOf(edit.annotation)) entry.held = true;
   }
 
-  /** @type {(uid: string) => boolean} */
+  /** Whether a person has to decide about this annotation. @type {(uid: string) => boolean} */
   holds(uid) {
-    return this.#batches.some((batch) => batch.held && batch.edits[0].annotation === uid);
+    return this.#entriesOf(uid).some(({ held }) => held);
   }
 
-  /** @type {(wanted: (edit: Edit) => boolean) => void} */
-  #filter(wanted) {
-    for (const batch of this.#batches) {
-      const edits = batch.edits.filter(wanted);
-      if (edits.length === batch.edits.length) continue;
-      batch.edits = edits;
-      if (edits.length) this.#keep(batch);
-      else this.#forget(batch);
-    }
-    this.#batches = this.#batches.filter((batch) => batch.edits.length > 0);
+  /** @type {(entry: Entry) => void} */
+  #forget(entry) {
+    const { id, annotation } = entry.edit;
+    const others = this.#entriesOf(annotation).filter((other) => other !== entry);
+    this.#entries.delete(id);
+    if (others.length) this.#ofAnnotation.set(annotation, others);
+    else this.#ofAnnotation.delete(annotation);
+    this.#unkept.delete(entry);
+    this.#take(entry.key);
   }
 
-  /** @type {(batch: Batch) => void} */
-  #keep(batch) {
+  /** Takes a key away; what did not fit before may fit now. @type {(key: string) => void} */
+  #take(key) {
+    this.#storage?.removeItem(key);
+    for (const entry of this.#unkept) if (!this.#keep(entry)) break;
+  }
+
+  /** @type {(entry: Entry) => boolean} */
+  #keep(entry) {
     try {
       if (!this.#storage) throw new Error("no storage");
-      this.#storage.setItem(batch.key, JSON.stringify(batch.edits));
-      this.#unkept.delete(batch.key);
+      this.#storage.setItem(entry.key, JSON.stringify(entry.edit));
+      this.#unkept.delete(entry);
+      return true;
     } catch {
-      this.#unkept.add(batch.key);
+      this.#unkept.add(entry);
+      return false;
     }
-  }
-
-  /** @type {(batch: Batch) => void} */
-  #forget(batch) {
-    this.#storage?.removeItem(batch.key);
-    this.#unkept.delete(batch.key);
-  }
-}
-
-/** @type {(storage: Storage | null, prefix: string) => string[]} */
-export function keysWith(storage, prefix) {
-  if (!storage) return [];
-  const keys = Array.from({ length: storage.length }, (_, i) => storage.key(i) ?? "");
-  return keys.filter((key) => key.startsWith(prefix)).sort();
-}
-
-/** @type {(text: string) => Edit[]} */
-function parsed(text) {
-  try {
-    const edits = JSON.parse(text);
-    return Array.isArray(edits) ? edits : [];
-  } catch {
-    return [];
   }
 }

@@ -5,20 +5,27 @@
  * @module
  */
 
+import { same } from "../geometry/same.js";
+import { shapeOfAnnotation } from "../geometry/shapes.js";
+import { newId } from "../ids.js";
+import { stepsOf } from "../state/changes.js";
 import { History } from "../state/history.js";
-import { sameCap, shapeOfAnnotation, stepsOf } from "../state/store.js";
-import { newId } from "./outbox_owner.js";
+import { Confirmed } from "./confirmed.js";
 
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Edit} Edit */
-/** @typedef {import("../protocol.js").FromServer} FromServer */
 /** @typedef {import("../protocol.js").Outcome} Outcome */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
-/** @typedef {import("./outbox.js").Outbox} Outbox */
-/** @typedef {import("../state/store.js").Change} Change */
-/** @typedef {import("../state/store.js").Shape} Shape */
+/** @typedef {import("../state/changes.js").Change} Change */
 /** @typedef {import("../state/store.js").Store} Store */
-/** @typedef {{uid: string, image: number, theirs: Annotation, user: string}} Clash */
+/** @typedef {import("./outbox.js").Outbox} Outbox */
+
+/**
+ * An edit that was made on another revision than the server has, and the other side of it.
+ *
+ * @typedef {{uid: string, image: number, theirs: Annotation, user: string}} OpenConflict
+ */
 
 /**
  * @typedef {Object} Wires
@@ -36,15 +43,14 @@ export class Sync {
   #outbox = null;
   /** @type {Map<number, History>} */
   #histories = new Map();
-  /** @type {Map<string, Annotation>} */
-  #confirmed = new Map();
-  /** @type {string[]} */
-  #flying = [];
+  #confirmed = new Confirmed();
+  /** The ids of the edits in flight. @type {Set<string>} */
+  #flying = new Set();
   #timer = 0;
   #wires;
   image = 0;
-  /** @type {Clash[]} */
-  clashes = [];
+  /** @type {OpenConflict[]} */
+  conflicts = [];
 
   /** @param {Wires} wires */
   constructor(wires) {
@@ -52,8 +58,13 @@ export class Sync {
   }
 
   get history() {
-    let history = this.#histories.get(this.image);
-    if (!history) this.#histories.set(this.image, (history = new History()));
+    return this.#historyOf(this.image);
+  }
+
+  /** @type {(image: number) => History} */
+  #historyOf(image) {
+    let history = this.#histories.get(image);
+    if (!history) this.#histories.set(image, (history = new History()));
     return history;
   }
 
@@ -72,8 +83,14 @@ export class Sync {
 
   /** The connection is up (again): whatever was in flight may be lost, so send it once more. */
   resume() {
-    this.#flying = [];
+    this.#flying.clear();
     this.pump();
+  }
+
+  /** The connection is gone. */
+  pause() {
+    clearTimeout(this.#timer);
+    this.#flying.clear();
   }
 
   /**
@@ -82,15 +99,9 @@ export class Sync {
    * @param {string} reason
    */
   giveUp(reason) {
-    const hopeless = new Set(this.#flying);
-    for (const edit of this.#outbox?.edits() ?? []) if (hopeless.has(edit.id)) this.#refuse(edit, reason);
+    const edits = [...this.#flying].flatMap((id) => this.#outbox?.get(id) ?? []);
+    this.#apply(edits.flatMap((edit) => this.#refuse(edit, reason)));
     this.pause();
-  }
-
-  /** The connection is gone. */
-  pause() {
-    clearTimeout(this.#timer);
-    this.#flying = [];
   }
 
   /**
@@ -122,7 +133,7 @@ export class Sync {
   #carryOut(changes) {
     if (!changes) return null;
     const edits = changes.flatMap((change) => this.#editsOf(change));
-    this.#wires.store.apply(changes, "local");
+    this.#wires.store.apply(changes);
     if (edits.length) this.#outbox?.add(edits);
     for (const { after } of changes) this.#foldIntoHeld(after);
     this.pump();
@@ -153,11 +164,11 @@ export class Sync {
   /** Sends the next change set, unless one is on its way. */
   pump() {
     this.#wires.progress();
-    const batch = this.#flying.length ? null : this.#outbox?.head();
-    if (!batch || !this.#wires.send({ type: "edits", edits: batch.edits })) return;
-    this.#flying = batch.edits.map((edit) => edit.id);
+    const edits = this.#flying.size ? [] : (this.#outbox?.head() ?? []);
+    if (edits.length === 0 || !this.#wires.send({ type: "edits", edits })) return;
+    this.#flying = new Set(edits.map(({ id }) => id));
     clearTimeout(this.#timer);
-    this.#timer = window.setTimeout(() => this.#wires.stalled(), PATIENCE_MS);
+    this.#timer = setTimeout(() => this.#wires.stalled(), PATIENCE_MS);
   }
 
   /**
@@ -168,101 +179,89 @@ export class Sync {
    */
   open(image, annotations) {
     this.image = image;
-    this.history.forget(this.#movedOn(image, annotations));
-    for (const annotation of annotations) this.#confirmed.set(annotation.uid, annotation);
-    const buried = [...this.#confirmed.values()].filter((known) => known.image === image && known.deleted);
-    const shapes = new Map([...buried, ...annotations].map((known) => [known.uid, shapeOfAnnotation(known)]));
+    this.history.forget(this.#confirmed.refresh(image, annotations));
+    const all = [...this.#confirmed.deletedOf(image), ...annotations];
+    const shapes = new Map(all.map((known) => [known.uid, shapeOfAnnotation(known)]));
     for (const edit of this.#outbox?.edits() ?? []) {
       if (edit.image === image) overlay(shapes, edit);
     }
     this.#wires.store.replace([...shapes.values()]);
   }
 
-  /**
-   * The caps that others changed or deleted since this browser last heard of them.
-   *
-   * @param {number} image
-   * @param {Annotation[]} annotations
-   */
-  #movedOn(image, annotations) {
-    const now = new Map(annotations.map(({ uid, revision }) => [uid, revision]));
-    const moved = [...this.#confirmed.values()].filter((known) => {
-      return known.image === image && now.get(known.uid) !== (known.deleted ? undefined : known.revision);
-    });
-    for (const { uid } of moved) this.#confirmed.delete(uid);
-    return new Set(moved.map(({ uid }) => uid));
-  }
-
-  /** @type {(outcomes: Outcome[]) => void} */
-  settle(outcomes) {
-    for (const outcome of outcomes) {
-      const edit = this.#outbox?.edits().find(({ id }) => id === outcome.edit);
-      this.#flying = this.#flying.filter((id) => id !== outcome.edit);
-      if (!edit) continue;
-      if (outcome.outcome === "accepted") this.#accept(edit, outcome.annotation);
-      else if (outcome.outcome === "conflict") this.#clash(edit, outcome.theirs, outcome.user);
-      else this.#refuse(edit, outcome.reason);
-    }
-    if (this.#flying.length === 0) clearTimeout(this.#timer);
+  /** What became of edits that were sent. @type {(outcomes: Outcome[]) => void} */
+  receive(outcomes) {
+    this.#apply(outcomes.flatMap((outcome) => this.#settle(outcome)));
+    if (this.#flying.size === 0) clearTimeout(this.#timer);
     this.pump();
   }
 
-  /** @type {(edit: Edit, annotation: Annotation) => void} */
-  #accept(edit, annotation) {
-    this.#outbox?.settle(edit.id);
-    this.#confirmed.set(annotation.uid, annotation);
-    this.#adopt(annotation);
+  /** @type {(changes: Change[]) => void} */
+  #apply(changes) {
+    if (changes.length) this.#wires.store.apply(changes);
+  }
+
+  /** Ends an edit; returns what that changes in the store. @type {(outcome: Outcome) => Change[]} */
+  #settle(outcome) {
+    const edit = this.#outbox?.get(outcome.edit);
+    this.#flying.delete(outcome.edit);
+    if (!edit) return [];
+    if (outcome.outcome === "refused") return this.#refuse(edit, outcome.reason);
+    if (outcome.outcome === "conflict") return this.#ask(edit, outcome.theirs, outcome.user);
+    this.#outbox?.acknowledged(edit.id);
+    return this.#adopt(outcome.annotation);
   }
 
   /**
    * Takes the server's word for a cap, unless newer words of ours are still to be sent.
    *
    * @param {Annotation} annotation
+   * @returns {Change[]} what that changes in the store
    */
   #adopt(annotation) {
-    if (annotation.image !== this.image || this.#outbox?.lastOf(annotation.uid)) return;
+    this.#confirmed.put(annotation);
+    if (annotation.image !== this.image || this.#outbox?.lastOf(annotation.uid)) return [];
     const before = this.#wires.store.get(annotation.uid);
     const shape = shapeOfAnnotation(annotation);
-    const cap = before && sameCap(before.cap, shape.cap) ? before.cap : shape.cap;
-    this.#wires.store.apply([{ before, after: { ...shape, cap } }], "remote");
+    const cap = before && same(before.cap, shape.cap) ? before.cap : shape.cap;
+    return [{ before, after: { ...shape, cap } }];
   }
 
-  /** @type {(edit: Edit, theirs: Annotation, user: string) => void} */
-  #clash(edit, theirs, user) {
+  /** Leaves it to the person which side of a conflict is kept. @type {(edit: Edit, theirs: Annotation, user: string) => Change[]} */
+  #ask(edit, theirs, user) {
     const last = this.#outbox?.lastOf(edit.annotation) ?? edit;
     this.#outbox?.hold({ ...edit, cap: last.cap });
-    this.#confirmed.set(theirs.uid, theirs);
-    this.clashes = this.clashes.filter(({ uid }) => uid !== theirs.uid);
-    this.clashes.push({ uid: theirs.uid, image: edit.image, theirs, user });
+    this.#confirmed.put(theirs);
+    this.conflicts = this.conflicts.filter(({ uid }) => uid !== theirs.uid);
+    this.conflicts.push({ uid: theirs.uid, image: edit.image, theirs, user });
+    return [];
   }
 
-  /** @type {(edit: Edit, reason: string) => void} */
+  /** Goes back to what the server has. @type {(edit: Edit, reason: string) => Change[]} */
   #refuse(edit, reason) {
     this.#outbox?.drop(edit.annotation);
-    this.#histories.get(edit.image)?.forget(new Set([edit.annotation]));
+    this.#historyOf(edit.image).forget(new Set([edit.annotation]));
     this.#wires.refused(reason);
     const known = this.#confirmed.get(edit.annotation);
-    const shape = this.#wires.store.get(edit.annotation);
-    if (known) this.#adopt(known);
-    else if (shape)
-      this.#wires.store.apply([{ before: shape, after: { ...shape, deleted: true } }], "remote");
+    if (known) return this.#adopt(known);
+    const before = this.#wires.store.get(edit.annotation);
+    return before ? [{ before, after: { ...before, deleted: true } }] : [];
   }
 
   /**
    * Ends a conflict: what this browser shows goes on top of theirs, or theirs takes its place.
    *
-   * @param {Clash} clash
+   * @param {OpenConflict} conflict
    * @param {"mine" | "theirs"} whose
    */
-  resolve(clash, whose) {
-    const mine = this.#outbox?.lastOf(clash.uid);
-    this.clashes = this.clashes.filter((other) => other !== clash);
-    this.#outbox?.drop(clash.uid);
-    this.#histories.get(clash.image)?.forget(new Set([clash.uid]));
+  resolve(conflict, whose) {
+    const mine = this.#outbox?.lastOf(conflict.uid);
+    this.conflicts = this.conflicts.filter((other) => other !== conflict);
+    this.#outbox?.drop(conflict.uid);
+    this.#historyOf(conflict.image).forget(new Set([conflict.uid]));
     if (whose === "mine" && mine) {
-      this.#outbox?.add([{ ...mine, id: newId(), base: clash.theirs.revision }]);
+      this.#outbox?.add([{ ...mine, id: newId(), base: conflict.theirs.revision }]);
     } else {
-      this.#adopt(clash.theirs);
+      this.#apply(this.#adopt(conflict.theirs));
     }
     this.pump();
   }
@@ -274,15 +273,11 @@ export class Sync {
    * @param {Annotation[]} annotations
    */
   changed(image, annotations) {
-    const moved = annotations.filter(
-      ({ uid, revision }) => revision > (this.#confirmed.get(uid)?.revision ?? 0),
-    );
-    this.#histories.get(image)?.forget(new Set(moved.map(({ uid }) => uid)));
-    for (const annotation of annotations) {
-      if (annotation.revision < (this.#confirmed.get(annotation.uid)?.revision ?? 0)) continue;
-      this.#confirmed.set(annotation.uid, annotation);
-      this.#adopt(annotation);
-    }
+    const revision = (/** @type {string} */ uid) => this.#confirmed.get(uid)?.revision ?? 0;
+    const newer = annotations.filter((annotation) => annotation.revision > revision(annotation.uid));
+    this.#historyOf(image).forget(new Set(newer.map(({ uid }) => uid)));
+    const current = annotations.filter((annotation) => annotation.revision >= revision(annotation.uid));
+    this.#apply(current.flatMap((annotation) => this.#adopt(annotation)));
   }
 }
 

@@ -1,5 +1,5 @@
-import { element } from "./dom.js";
 import { ARCS } from "../render/palette.js";
+import { element } from "./dom.js";
 
 /** @typedef {import("../protocol.js").Arc} Arc */
 /** @typedef {import("../protocol.js").Fit} Fit */

@@ -1,92 +1,90 @@
 /**
- * A lost update that was not lost: shows both caps on the photo and lets the person choose.
+ * The conflict dialog: shows both versions of a cap that two people changed, and lets the person choose.
  *
  * @module
  */
 
 import { placedWhole } from "../geometry/caps.js";
-import { element } from "./dom.js";
 import { CASING, COLOURS } from "../render/palette.js";
 import { strokeCased, traceRing, traceWhole } from "../render/paths.js";
-import { shapeOfAnnotation } from "../state/store.js";
+import { element } from "./dom.js";
 
-/** @typedef {import("../sync/sync.js").Clash} Clash */
+/** @typedef {import("../sync/sync.js").OpenConflict} OpenConflict */
 
 /**
- * @typedef {Object} Wishes
- * @property {(clash: Clash, whose: "mine" | "theirs") => void} resolve
- * @property {(clash: Clash) => void} show  brings the cap into view
+ * @typedef {Object} Callbacks
+ * @property {(conflict: OpenConflict, whose: "mine" | "theirs") => void} resolve
+ * @property {(conflict: OpenConflict) => void} show  brings the cap into view
  */
 
-export class ConflictCard {
-  /** @type {Clash | null} */
-  #clash = null;
-  #card = element("div", {
+export class ConflictDialog {
+  /** The one it is about. @type {OpenConflict | null} */
+  #conflict = null;
+  #dialog = element("div", {
     class: "fairyring-conflict",
     attributes: { role: "alertdialog", "aria-label": "Conflict" },
   });
-  #wishes;
+  #callbacks;
 
   /**
    * @param {HTMLElement} host
-   * @param {Wishes} wishes
+   * @param {Callbacks} callbacks
    */
-  constructor(host, wishes) {
-    this.#wishes = wishes;
-    this.#card.dataset.fairyringChrome = "";
-    this.#card.hidden = true;
-    host.append(this.#card);
+  constructor(host, callbacks) {
+    this.#callbacks = callbacks;
+    this.#dialog.dataset.fairyringChrome = "";
+    this.#dialog.hidden = true;
+    host.append(this.#dialog);
   }
 
   /**
-   * @param {Clash[]} clashes
+   * @param {OpenConflict[]} conflicts
    * @param {number} image the one on screen
    */
-  update(clashes, image) {
-    const clash = clashes.find((other) => other.image === image) ?? clashes[0] ?? null;
-    if (clash === this.#clash && this.#card.dataset.image === String(image)) return;
-    const fresh = clash !== this.#clash;
-    this.#clash = clash;
-    this.#card.hidden = clash === null;
-    this.#card.dataset.image = String(image);
-    if (!clash) return;
-    this.#card.replaceChildren(...this.#content(clash, clashes.length, clash.image === image));
-    if (fresh && clash.image === image) this.#wishes.show(clash);
+  update(conflicts, image) {
+    const conflict = conflicts.find((other) => other.image === image) ?? conflicts[0] ?? null;
+    if (conflict === this.#conflict && this.#dialog.dataset.image === String(image)) return;
+    const fresh = conflict !== this.#conflict;
+    this.#conflict = conflict;
+    this.#dialog.hidden = conflict === null;
+    this.#dialog.dataset.image = String(image);
+    if (!conflict) return;
+    this.#dialog.replaceChildren(...this.#content(conflict, conflicts.length, conflict.image === image));
+    if (fresh && conflict.image === image) this.#callbacks.show(conflict);
   }
 
-  /** @type {(clash: Clash, count: number, here: boolean) => Node[]} */
-  #content(clash, count, here) {
-    const did = clash.theirs.deleted ? "deleted" : "changed";
+  /** @type {(conflict: OpenConflict, count: number, here: boolean) => Node[]} */
+  #content(conflict, count, here) {
+    const { theirs, user } = conflict;
+    const did = theirs.deleted ? "deleted" : "changed";
     const more = count > 1 ? ` (1 of ${count})` : "";
     const where = here ? "this cap" : "a cap on another image";
-    const text = `${clash.user} ${did} ${where} while you were changing it.${more}`;
+    const text = `${user} ${did} ${where} while you were changing it.${more}`;
     const legend = element(
       "p",
       { class: "fairyring-conflict-legend" },
       element("span", { class: "is-mine", text: "yours" }),
-      element("span", {
-        class: "is-theirs",
-        text: clash.theirs.deleted ? `${clash.user}: deleted` : clash.user,
-      }),
+      element("span", { class: "is-theirs", text: theirs.deleted ? `${user}: deleted` : user }),
     );
-    const { resolve, show } = this.#wishes;
+    const { resolve, show } = this.#callbacks;
     const buttons = here
       ? [
-          button("Keep mine", () => resolve(clash, "mine")),
-          button("Take theirs", () => resolve(clash, "theirs")),
+          button("Keep mine", () => resolve(conflict, "mine")),
+          button("Take theirs", () => resolve(conflict, "theirs")),
         ]
-      : [button("Show it", () => show(clash))];
+      : [button("Show it", () => show(conflict))];
     return [element("p", { text }), ...(here ? [legend] : []), element("div", {}, ...buttons)];
   }
 
   /** Their side, drawn on the photo. @type {import("../render/overlay.js").Sketch} */
   sketch = (context, view) => {
-    const clash = this.#clash;
-    if (!clash || clash.theirs.deleted || this.#card.dataset.image !== String(clash.image)) return false;
-    const shape = shapeOfAnnotation(clash.theirs);
+    const conflict = this.#conflict;
+    const here = this.#dialog.dataset.image === String(conflict?.image);
+    if (!conflict || conflict.theirs.deleted || !here) return false;
+    const { cap } = conflict.theirs;
     context.beginPath();
-    for (const ring of shape.cap.visible) traceRing(context, view, ring);
-    const placed = placedWhole(shape.cap);
+    for (const ring of cap.visible) traceRing(context, view, ring);
+    const placed = placedWhole(cap);
     if (placed) traceWhole(context, view, placed);
     context.setLineDash([6, 4]);
     strokeCased(context, { colour: COLOURS.theirs, width: 2.5, casing: CASING });

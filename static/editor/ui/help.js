@@ -1,5 +1,7 @@
+import DECLARED from "../commands.js";
 import { element } from "./dom.js";
-import { GESTURES, KEYS } from "../input/keys.js";
+
+/** @typedef {{keys: string[], words: string}} Row */
 
 /**
  * The key list.
@@ -12,12 +14,7 @@ export function keyList() {
     "dialog",
     { class: "fairyring-help", attributes: { "aria-label": "Keys" } },
     element("header", {}, element("h2", { text: "Keys" }), close),
-    element(
-      "div",
-      { class: "fairyring-help-columns" },
-      ...KEYS.map(([title, bindings]) => group(title, rowsOf(bindings))),
-      group("Pointer", GESTURES),
-    ),
+    element("div", { class: "fairyring-help-columns" }, ...sections()),
   );
   close.addEventListener("click", () => dialog.close());
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
@@ -26,36 +23,35 @@ export function keyList() {
   return () => (dialog.open ? dialog.close() : dialog.showModal());
 }
 
-/**
- * Keys without words share the words of those that follow.
- *
- * @type {(bindings: import("../input/keys.js").Binding[]) => [string, string][]}
- */
-function rowsOf(bindings) {
-  /** @type {[string, string][]} */
-  const rows = [];
-  let keys = [];
-  for (const binding of bindings) {
-    keys.push(...binding.keys);
-    if (!binding.text) continue;
-    rows.push([keys.map(readable).join(" ").replaceAll(" Shift+", " "), binding.text]);
-    keys = [];
-  }
-  return rows;
+function sections() {
+  const { groups, layers, held, gestures } = DECLARED;
+  return [
+    ...groups.map(({ title, commands }) => section(title, commands)),
+    section("Show or hide", layers.map(({ key, words }) => ({ keys: [key], words }))),
+    section("Pointer", [
+      ...gestures.map(({ gesture, words }) => ({ keys: [gesture], words })),
+      ...held.map(({ key, words }) => ({ keys: [`Hold ${key}`], words })),
+    ]),
+  ];
 }
 
-/** @type {(key: string) => string} */
-function readable(key) {
-  const arrows = key
-    .replace("ArrowLeft", "←")
-    .replace("ArrowRight", "→")
-    .replace("ArrowUp", "↑")
-    .replace("ArrowDown", "↓");
-  return arrows.length === 1 ? arrows.toUpperCase() : arrows.replace("Escape", "Esc");
-}
-
-/** @type {(title: string, rows: [string, string][]) => HTMLElement} */
-function group(title, rows) {
-  const entries = rows.flatMap(([keys, text]) => [element("dt", { text: keys }), element("dd", { text })]);
+/** @type {(title: string, rows: Row[]) => HTMLElement} */
+function section(title, rows) {
+  const entries = joinedRows(rows).flatMap(({ keys, words }) => [
+    element("dt", { text: keys.join(" ").replaceAll(" Shift+", " ") }),
+    element("dd", { text: words }),
+  ]);
   return element("section", {}, element("h3", { text: title }), element("dl", {}, ...entries));
+}
+
+/** Rows of the same words that follow each other, as one. @type {(rows: Row[]) => Row[]} */
+function joinedRows(rows) {
+  /** @type {Row[]} */
+  const joined = [];
+  for (const { keys, words } of rows) {
+    const last = joined.at(-1);
+    if (last?.words === words) last.keys.push(...keys);
+    else joined.push({ keys: [...keys], words });
+  }
+  return joined;
 }

@@ -5,30 +5,30 @@
  */
 
 /**
- * @typedef {Object} Wishes
+ * @typedef {Object} Callbacks
  * @property {(image: number, select: string | null) => void} open
  * @property {(command: string) => void} run
  * @property {(tool: string) => void} use
  */
 
-/** @type {(wishes: Wishes) => void} */
-export function listenToPanel(wishes) {
+/** @type {(callbacks: Callbacks) => void} */
+export function listenToPanel(callbacks) {
   document.addEventListener("click", (event) => {
-    if (event.target instanceof Element) carryOut(event.target, wishes);
+    if (event.target instanceof Element) carryOut(event.target, callbacks);
   });
   document.addEventListener("keydown", (event) => {
     const target = event.target;
     if (event.key !== "Enter" || !(target instanceof Element) || target instanceof HTMLButtonElement) return;
     if (target.closest("input, textarea, select, a")) return;
-    carryOut(target, wishes);
+    carryOut(target, callbacks);
   });
 }
 
-/** @type {(target: Element, wishes: Wishes) => void} */
+/** @type {(target: Element, callbacks: Callbacks) => void} */
 function carryOut(target, { open, run, use }) {
-  const place = target.closest("[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool]");
-  if (!(place instanceof HTMLElement)) return;
-  const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool } = place.dataset;
+  const button = target.closest("[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool]");
+  if (!(button instanceof HTMLElement)) return;
+  const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool } = button.dataset;
   if (fairyringOpen) open(Number(fairyringOpen), fairyringSelect || null);
   if (fairyringCommand) run(fairyringCommand);
   if (fairyringTool) use(fairyringTool);

@@ -1,7 +1,7 @@
 import { element } from "./dom.js";
 
 /** @typedef {import("../sync/transport.js").Connection} Connection */
-/** @typedef {{connection: Connection, waiting: number, kept: boolean, clashes: number}} State */
+/** @typedef {{connection: Connection, waiting: number, kept: boolean, conflicts: number}} State */
 
 /**
  * The line that says, truthfully, whether the work is saved.
@@ -21,20 +21,20 @@ export function statusIn(host) {
 }
 
 /** @type {(state: State) => {text: string, tone: "good" | "busy" | "bad"}} */
-export function statusOf({ connection, waiting, kept, clashes }) {
-  const clash = clashes ? ` · ${count(clashes, "conflict")} to settle` : "";
+export function statusOf({ connection, waiting, kept, conflicts }) {
+  const more = conflicts ? ` · ${count(conflicts, "conflict")} to settle` : "";
   if (!kept) {
     return {
-      text: `${count(waiting, "edit")} not saved, and this browser cannot keep them: leave this page open${clash}`,
+      text: `${count(waiting, "edit")} not saved, and this browser cannot keep them: leave this page open${more}`,
       tone: "bad",
     };
   }
   if (connection !== "online") {
     const kept = waiting ? `, ${count(waiting, "edit")} kept in this browser` : "";
-    return { text: `${connection === "offline" ? "Offline" : "Connecting"}${kept}${clash}`, tone: "bad" };
+    return { text: `${connection === "offline" ? "Offline" : "Connecting"}${kept}${more}`, tone: "bad" };
   }
-  if (waiting) return { text: `Saving ${count(waiting, "edit")}…${clash}`, tone: "busy" };
-  return { text: `Saved${clash}`, tone: clashes ? "bad" : "good" };
+  if (waiting) return { text: `Saving ${count(waiting, "edit")}…${more}`, tone: "busy" };
+  return { text: `Saved${more}`, tone: conflicts ? "bad" : "good" };
 }
 
 /** @type {(n: number, what: string) => string} */

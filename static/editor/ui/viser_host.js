@@ -48,11 +48,11 @@ export function keepMounted(host, onToken) {
 
 /** @type {(host: HTMLElement) => void} */
 function mount(host) {
-  const scene = document.querySelector("canvas[data-engine]");
-  const stage = scene?.closest("[data-dock-root] > *") ?? null;
-  if (!stage || host.parentElement === stage) return;
-  stage.setAttribute("data-fairyring-stage", "");
-  stage.append(host);
+  const canvas = document.querySelector("canvas[data-engine]");
+  const area = canvas?.closest("[data-dock-root] > *") ?? null;
+  if (!area || host.parentElement === area) return;
+  area.setAttribute("data-fairyring-area", "");
+  area.append(host);
 }
 
 /** @type {() => boolean} */

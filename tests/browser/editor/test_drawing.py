@@ -1,93 +1,105 @@
-"""What lies over the photo: sheets shown as bitmaps, a glass that is there only while it is drawn on."""
+"""The canvases over the photo: one shown as a bitmap, one that is there only while it is drawn on."""
 
 from __future__ import annotations
 
-SHEET = """
+BITMAP = """
   const host = document.createElement('div');
-  const sheet = new m.Sheet(host);
+  const drawing = new m.BitmapCanvas(host);
   const seen = (...where) => {
     const copy = new OffscreenCanvas(20, 10).getContext('2d');
-    copy.drawImage(sheet.canvas, 0, 0);
+    copy.drawImage(drawing.canvas, 0, 0);
     return where.map((x) => copy.getImageData(x, 4, 1, 1).data[0]);
   };
   const draw = (x) => {
-    sheet.context.fillStyle = '#f00';
-    sheet.context.fillRect(x, 0, 3, 5);
+    drawing.context.fillStyle = '#f00';
+    drawing.context.fillRect(x, 0, 3, 5);
   };
+  drawing.clear({width: 10, height: 5}, 2);
 """
 
 
-def test_a_sheet_is_on_the_screen_once_it_is_shown_and_keeps_what_was_drawn(call) -> None:
-    body = (
-        SHEET
-        + """
-      sheet.cut({width: 10, height: 5}, 2);
+def test_a_drawing_is_on_the_screen_once_it_is_shown_and_keeps_what_was_drawn(call) -> None:
+    body = """
       draw(0);
-      sheet.show();
+      drawing.show();
       const once = seen(5, 6, 12, 18);
       draw(6);
-      sheet.show();
-      return [once, seen(5, 6, 12, 18), sheet.canvas.style.width, sheet.canvas.style.height];
+      drawing.show();
+      return [once, seen(5, 6, 12, 18), drawing.canvas.style.width, drawing.canvas.style.height];
     """
-    )
-    assert call("render/bitmap_canvas", body) == [[255, 0, 0, 0], [255, 0, 255, 0], "10px", "5px"]
+    seen = call("render/bitmap_canvas", BITMAP + body)
+    assert seen == [[255, 0, 0, 0], [255, 0, 255, 0], "10px", "5px"]
 
 
-def test_the_screen_keeps_the_old_sheet_until_the_new_one_is_shown(call) -> None:
-    body = (
-        SHEET
-        + """
-      sheet.cut({width: 10, height: 5}, 2);
+def test_the_screen_keeps_the_old_drawing_until_the_new_one_is_shown(call) -> None:
+    body = """
       draw(0);
-      sheet.show();
-      sheet.cut({width: 10, height: 5}, 2);
+      drawing.show();
+      drawing.clear({width: 10, height: 5}, 2);
       const before = seen(5);
-      sheet.show();
+      drawing.show();
       return [before, seen(5)];
     """
-    )
-    assert call("render/bitmap_canvas", body) == [[255], [0]]
+    assert call("render/bitmap_canvas", BITMAP + body) == [[255], [0]]
 
 
 def test_a_picture_drawn_elsewhere_is_shown_and_can_be_drawn_on(call) -> None:
-    body = (
-        SHEET
-        + """
+    body = """
       const made = new OffscreenCanvas(20, 10);
       const put = () => {
-        sheet.cut({width: 10, height: 5}, 2);
+        drawing.clear({width: 10, height: 5}, 2);
         Object.assign(made.getContext('2d'), {fillStyle: '#f00'}).fillRect(0, 0, 6, 10);
-        sheet.put(made.transferToImageBitmap());
+        drawing.put(made.transferToImageBitmap());
       };
       put();
-      sheet.show();
+      drawing.show();
       const shown = seen(5, 12);
       draw(6);
-      sheet.show();
+      drawing.show();
       const after = seen(5, 12);
       put();
       draw(6);
-      sheet.show();
+      drawing.show();
       return [shown, after, seen(5, 12)];
     """
-    )
-    assert call("render/bitmap_canvas", body) == [[255, 0], [255, 255], [255, 255]]
+    assert call("render/bitmap_canvas", BITMAP + body) == [[255, 0], [255, 255], [255, 255]]
 
 
-def test_a_glass_is_there_only_while_something_is_drawn_on_it(call) -> None:
+def test_a_small_canvas_is_there_only_while_something_is_drawn_on_it(call) -> None:
     body = """
       const host = document.createElement('div');
-      const glass = new m.Glass(host);
-      const turn = (bounds, soils) => {
-        glass.lay(bounds, {width: 300, height: 200}, 1);
-        if (soils) glass.soil();
-        glass.settle();
+      const canvas = new m.SmallCanvas(host);
+      const turn = (bounds, something) => {
+        canvas.draw(bounds, {width: 300, height: 200}, 1, () => something);
         return !host.firstChild.hidden;
       };
       const here = {x0: 10, y0: 10, x1: 50, y1: 50};
-      return [turn(here, false), turn(here, true), turn(here, false), turn(here, true), turn(null, false)];
+      return [turn(here, false), turn(here, true), turn(here, false), turn(here, true), turn(null, true)];
     """
     assert call("render/small_canvas", body) == [False, True, False, True, False]
+
+
+def test_a_small_canvas_starts_empty_each_time_also_where_it_stays(call) -> None:
+    body = """
+      const host = document.createElement('div');
+      const canvas = new m.SmallCanvas(host);
+      const size = {width: 300, height: 200};
+      const here = {x0: 10, y0: 10, x1: 50, y1: 50};
+      const dot = (x) => canvas.draw(here, size, 1, (context) => {
+        context.fillRect(x, 20, 4, 4);
+        return true;
+      });
+      const seen = (...where) => where.map((x) => {
+        const copy = new OffscreenCanvas(300, 200).getContext('2d');
+        copy.drawImage(host.firstChild, 0, 0);
+        return copy.getImageData(x, 21, 1, 1).data[3];
+      });
+      dot(20);
+      const first = seen(21, 41);
+      dot(40);
+      return [first, seen(21, 41)];
+    """
+    assert call("render/small_canvas", body) == [[255, 0], [0, 255]]
 
 
 POINTER = """
@@ -95,8 +107,8 @@ POINTER = """
   host.setPointerCapture = () => {};
   const dragged = [];
   const tool = {cursor: '', down() {}, up() {}, hover() {}, drag: ({screen}) => dragged.push(screen[0])};
-  const desk = {lens: {view: {scale: 1, x: 0, y: 0}}, hover() {}};
-  const pointer = new m.Pointer(host, desk, {blame() {}}, () => tool);
+  const { EditorState } = await import('/editor/state/editor_state.js');
+  const pointer = new m.Pointer(host, new EditorState(() => {}), { tool: () => tool, caused() {} });
   const tell = (kind, clientX, wait = 0) => new Promise((resolve) => setTimeout(() => {
     host.dispatchEvent(new PointerEvent(kind, {clientX, button: 0, buttons: 1}));
     resolve();

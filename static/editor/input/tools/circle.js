@@ -7,18 +7,18 @@
 
 import { hundredths, insideCap, newCap, placedWhole } from "../../geometry/caps.js";
 import { SMALLEST_RADIUS, movedHandle, nearestHandle } from "../../geometry/handles.js";
-import { pick } from "../../geometry/hit.js";
+import { newShape, withCap } from "../../geometry/shapes.js";
+import { toScreen } from "../../geometry/view.js";
+import { newId } from "../../ids.js";
 import { CASING, COLOURS, FILLS } from "../../render/palette.js";
 import { strokeCased, traceCross, traceWhole } from "../../render/paths.js";
-import { changed, withCap } from "../../geometry/shapes.js";
-import { newId } from "../../sync/outbox_owner.js";
-import { toScreen } from "../../geometry/view.js";
+import { changed } from "../../state/changes.js";
 import { CLICK_PX, GRAB_PX, apart } from "./tool.js";
 
-/** @typedef {import("../../state/desk.js").Desk} Desk */
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
+/** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Circle} Circle */
-/** @typedef {import("../../state/store.js").Shape} Shape */
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
@@ -32,32 +32,33 @@ export class CircleTool {
   #circle = null;
   /** The circle of the selected cap, taken by a handle. @type {{shape: Shape, handle: Handle} | null} */
   #grip = null;
-  #desk;
+  #state;
 
-  /** @param {Desk} desk */
-  constructor(desk) {
-    this.#desk = desk;
+  /** @param {EditorState} state */
+  constructor(state) {
+    this.#state = state;
   }
 
   /** @type {(press: Press) => void} */
   hover(press) {
-    const item = pick(this.#desk.pickable, press.image, 0);
-    this.#desk.hover(item && !this.#desk.selected.has(item.uid) ? item.uid : null);
+    const { selection } = this.#state;
+    const item = this.#state.at(press.image, 0);
+    selection.hover(item && !selection.has(item.uid) ? item.uid : null);
     this.cursor = this.#handleAt(press) ? "move" : "crosshair";
   }
 
   /** @type {(press: Press) => {shape: Shape, handle: Handle} | null} */
   #handleAt(press) {
-    const shape = this.#desk.sole;
+    const { sole: shape, viewport } = this.#state;
     if (!shape || placedWhole(shape.cap)?.kind !== "circle") return null;
     const bare = { ...shape.cap, visible: [] };
-    const handle = nearestHandle(bare, press.image, GRAB_PX / this.#desk.lens.view.scale);
+    const handle = nearestHandle(bare, press.image, GRAB_PX / viewport.view.scale);
     return handle && { shape, handle };
   }
 
   /** @type {(press: Press) => void} */
   down(press) {
-    this.#desk.settle();
+    this.#state.commitDrafts();
     this.#start = press;
     this.#grip = this.#handleAt(press);
   }
@@ -71,44 +72,43 @@ export class CircleTool {
     if (this.#grip) {
       const { shape, handle } = this.#grip;
       const cap = movedHandle(shape.cap, handle, { dx, dy, from: start.image, pull: 0 });
-      this.#desk.propose([withCap(shape, cap)]);
+      this.#state.propose([withCap(shape, cap)]);
       return;
     }
     const [cx, cy] = start.image.map(hundredths);
     this.#circle = { kind: "circle", cx, cy, r: Math.max(SMALLEST_RADIUS, hundredths(Math.hypot(dx, dy))) };
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
   }
 
   /** @type {(press: Press) => void} */
   up(press) {
-    if (this.#grip) this.#desk.settle();
+    if (this.#grip) this.#state.commitDrafts();
     else if (this.#circle) this.#place(this.#circle);
     else {
-      const item = pick(this.#desk.pickable, press.image, 0);
-      this.#desk.select(item ? [item.uid] : []);
+      const item = this.#state.at(press.image, 0);
+      this.#state.select(item ? [item.uid] : []);
     }
     this.#start = this.#circle = this.#grip = null;
   }
 
   /** @type {(circle: Circle) => void} */
   #place(circle) {
-    const desk = this.#desk;
-    const sole = desk.sole;
+    const state = this.#state;
+    const { sole } = state;
     if (sole && insideCap(sole.cap, circle.cx, circle.cy)) {
-      desk.commit([changed(sole, withCap(sole, { ...sole.cap, mark: circle }))]);
+      state.commit([changed(sole, withCap(sole, { ...sole.cap, mark: circle }))]);
       return;
     }
-    const uid = newId();
-    const blank = { uid, cap: newCap(), revision: 0, deleted: false, whole: null, centre: null, score: null };
-    desk.commit([{ before: null, after: withCap(blank, newCap({ mark: circle })) }]);
-    desk.select([uid]);
+    const after = newShape(newId(), newCap({ mark: circle }));
+    state.commit([{ before: null, after }]);
+    state.select([after.uid]);
   }
 
   cancel() {
     const busy = this.#circle !== null || this.#grip !== null;
     this.#start = this.#circle = this.#grip = null;
-    this.#desk.withdraw();
-    this.#desk.signals.overlay.emit();
+    this.#state.withdraw();
+    this.#state.signals.overlay.emit();
     return busy;
   }
 

@@ -1,13 +1,13 @@
-/** @typedef {import("../../state/desk.js").Desk} Desk */
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Tool} Tool */
 
 /**
  * Moves the view.
  *
- * @param {Desk} desk
+ * @param {EditorState} state
  * @returns {Tool}
  */
-export function panTool(desk) {
+export function panTool({ viewport }) {
   /** @type {import("../../protocol.js").Point} */
   let last = [0, 0];
   return {
@@ -16,7 +16,7 @@ export function panTool(desk) {
     hover() {},
     down: (press) => (last = press.screen),
     drag(press) {
-      desk.lens.panBy(press.screen[0] - last[0], press.screen[1] - last[1]);
+      viewport.panBy(press.screen[0] - last[0], press.screen[1] - last[1]);
       last = press.screen;
     },
     up() {},

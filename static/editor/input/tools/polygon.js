@@ -5,15 +5,16 @@
  */
 
 import { hundredths, newCap } from "../../geometry/caps.js";
-import { CASING, COLOURS, FILLS } from "../../render/palette.js";
-import { strokeCased, traceRing } from "../../render/paths.js";
-import { newId } from "../../sync/outbox_owner.js";
+import { newShape } from "../../geometry/shapes.js";
 import { FEWEST } from "../../geometry/vertices.js";
 import { toScreen } from "../../geometry/view.js";
+import { newId } from "../../ids.js";
+import { CASING, COLOURS, FILLS } from "../../render/palette.js";
+import { strokeCased, traceRing } from "../../render/paths.js";
 import { GRAB_PX, apart } from "./tool.js";
 
-/** @typedef {import("../../state/desk.js").Desk} Desk */
 /** @typedef {import("../../protocol.js").Point} Point */
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
@@ -28,15 +29,15 @@ export class PolygonTool {
   /** @type {Point | null} */
   #next = null;
   #closing = false;
-  #desk;
+  #state;
   #done;
 
   /**
-   * @param {Desk} desk
+   * @param {EditorState} state
    * @param {() => void} done  a cap was drawn
    */
-  constructor(desk, done) {
-    this.#desk = desk;
+  constructor(state, done) {
+    this.#state = state;
     this.#done = done;
   }
 
@@ -45,18 +46,18 @@ export class PolygonTool {
     this.#next = press.image;
     this.#closing = this.#closes(press);
     this.cursor = this.#closing ? "pointer" : "crosshair";
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
   }
 
   /** @type {(press: Press) => boolean} */
   #closes(press) {
     if (this.#points.length < FEWEST) return false;
-    return apart(toScreen(this.#desk.lens.view, ...this.#points[0]), press.screen) <= GRAB_PX;
+    return apart(toScreen(this.#state.viewport.view, ...this.#points[0]), press.screen) <= GRAB_PX;
   }
 
   /** @type {(press: Press) => void} */
   down(press) {
-    if (this.#points.length === 0) this.#desk.select([]);
+    if (this.#points.length === 0) this.#state.select([]);
     if (this.#closes(press)) this.finish();
     else this.#add(press);
   }
@@ -65,20 +66,20 @@ export class PolygonTool {
   drag(press) {
     this.#next = press.image;
     const last = this.#points.at(-1);
-    if (last && apart(toScreen(this.#desk.lens.view, ...last), press.screen) >= FREEHAND_PX) this.#add(press);
-    this.#desk.signals.overlay.emit();
+    if (last && apart(toScreen(this.#state.viewport.view, ...last), press.screen) >= FREEHAND_PX) this.#add(press);
+    this.#state.signals.overlay.emit();
   }
 
   /** @type {(press: Press) => void} */
   #add({ image: [x, y] }) {
-    const { width, height } = this.#desk.image ?? { width: 0, height: 0 };
+    const { width, height } = this.#state.image ?? { width: 0, height: 0 };
     const at = /** @type {Point} */ ([
       hundredths(Math.min(width, Math.max(0, x))),
       hundredths(Math.min(height, Math.max(0, y))),
     ]);
     const last = this.#points.at(-1);
     if (!last || last[0] !== at[0] || last[1] !== at[1]) this.#points.push(at);
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
   }
 
   /** Letting go near the start of a freehand outline closes it. @type {(press: Press) => void} */
@@ -93,20 +94,18 @@ export class PolygonTool {
   finish() {
     if (this.#points.length === 0) return false;
     if (this.#points.length < FEWEST) return true;
-    const cap = newCap({ visible: [this.#points.flat()] });
-    const uid = newId();
+    const after = newShape(newId(), newCap({ visible: [this.#points.flat()] }));
     this.#points = [];
-    const after = { uid, cap, revision: 0, deleted: false, whole: null, centre: null, score: null };
-    this.#desk.commit([{ before: null, after }]);
-    this.#desk.select([uid]);
-    this.#desk.signals.draft.emit(after);
+    this.#state.commit([{ before: null, after }]);
+    this.#state.select([after.uid]);
+    this.#state.signals.draft.emit(after);
     this.#done();
     return true;
   }
 
   back() {
     const had = this.#points.pop() !== undefined;
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
     return had;
   }
 
@@ -114,7 +113,7 @@ export class PolygonTool {
     const busy = this.#points.length > 0;
     this.#points = [];
     this.#next = null;
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
     return busy;
   }
 

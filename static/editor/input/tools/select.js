@@ -6,17 +6,17 @@
  */
 
 import { hundredths, insideCap } from "../../geometry/caps.js";
-import { movedHandle, nearestHandle, sameHandle } from "../../geometry/handles.js";
-import { pick, within } from "../../geometry/hit.js";
-import { handlesAreApart } from "../../render/overlay.js";
-import { changed, movedShape, withCap } from "../../geometry/shapes.js";
+import { HANDLE_GAP_PX, handlesAreApart, movedHandle, nearestHandle } from "../../geometry/handles.js";
+import { same } from "../../geometry/same.js";
+import { movedShape, withCap } from "../../geometry/shapes.js";
 import { insertedVertices, nearestEdges, removedVertices } from "../../geometry/vertices.js";
+import { changed } from "../../state/changes.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 
-/** @typedef {import("../../state/desk.js").Desk} Desk */
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
+/** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Point} Point */
-/** @typedef {import("../../state/store.js").Shape} Shape */
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
@@ -43,56 +43,59 @@ export class SelectTool {
   #moved = false;
   /** @type {Point} */
   #last = [0, 0];
-  #desk;
-
-  /** @param {Desk} desk */
-  constructor(desk) {
-    this.#desk = desk;
-  }
-
-  /** @type {(press: Press) => void} */
-  hover(press) {
-    const desk = this.#desk;
-    const sole = desk.sole;
-    const handle = sole && this.#handleAt(sole, press);
-    this.#under = handle;
-    if (!sameHandle(handle, desk.active) && (handle || !this.#keepsActive)) {
-      desk.active = handle;
-      this.#keepsActive = false;
-      desk.signals.overlay.emit();
-    }
-    const item = handle ? null : pick(desk.pickable, press.image, EDGE_PX / desk.lens.view.scale);
-    desk.hover(item && !desk.selected.has(item.uid) ? item.uid : null);
-    this.cursor = this.#cursorFor(press, handle, item);
-  }
-
   /** @type {Handle | null} */
   #under = null;
   /** A handle that was dragged stays active for the arrow keys until another is pointed at. */
   #keepsActive = false;
+  #state;
+
+  /** @param {EditorState} state */
+  constructor(state) {
+    this.#state = state;
+  }
+
+  /** @type {(press: Press) => void} */
+  hover(press) {
+    const state = this.#state;
+    const { selection, sole } = state;
+    const handle = sole && this.#handleAt(sole, press);
+    this.#under = handle;
+    if (!same(handle, selection.handle) && (handle || !this.#keepsActive)) {
+      selection.activate(handle);
+      this.#keepsActive = false;
+    }
+    const item = handle ? null : state.at(press.image, this.#pixels(EDGE_PX));
+    selection.hover(item && !selection.has(item.uid) ? item.uid : null);
+    this.cursor = this.#cursorFor(press, handle, item);
+  }
 
   /** @type {(press: Press, handle: Handle | null, item: Shape | null) => string} */
   #cursorFor(press, handle, item) {
     if (handle) return handle.kind === "centre" ? "move" : "crosshair";
-    const sole = this.#desk.sole;
+    const { selection, sole } = this.#state;
     if (sole && this.#edgeAt(sole, press)) return "copy";
-    if (item && this.#desk.selected.has(item.uid)) return "move";
+    if (item && selection.has(item.uid)) return "move";
     return item ? "pointer" : "default";
+  }
+
+  /** So many CSS pixels in pixels of the image. @type {(css: number) => number} */
+  #pixels(css) {
+    return css / this.#state.viewport.view.scale;
   }
 
   /** @type {(shape: Shape, press: Press) => Handle | null} */
   #handleAt(shape, press) {
-    return nearestHandle(shape.cap, press.image, GRAB_PX / this.#desk.lens.view.scale);
+    return nearestHandle(shape.cap, press.image, this.#pixels(GRAB_PX));
   }
 
   /** @type {(shape: Shape, press: Press) => ReturnType<typeof nearestEdges>} */
   #edgeAt(shape, press) {
-    return nearestEdges(shape.cap, press.image, EDGE_PX / this.#desk.lens.view.scale);
+    return nearestEdges(shape.cap, press.image, this.#pixels(EDGE_PX));
   }
 
   /** @type {(press: Press) => void} */
   down(press) {
-    this.#desk.settle();
+    this.#state.commitDrafts();
     this.#start = press;
     this.#last = press.screen;
     this.#moved = false;
@@ -101,20 +104,19 @@ export class SelectTool {
 
   /** @type {(press: Press) => Grip} */
   #gripAt(press) {
-    const desk = this.#desk;
-    const sole = desk.sole;
+    const { selected, sole } = this.#state;
     if (press.shift) return { kind: "band", to: press.image };
     if (sole) {
       const handle = this.#handleAt(sole, press);
-      if (handle) return { kind: "handle", shape: sole, handle, pull: PULL_PX / desk.lens.view.scale };
+      if (handle) return { kind: "handle", shape: sole, handle, pull: this.#pixels(PULL_PX) };
       const edge = this.#edgeAt(sole, press);
       if (edge) {
         const { cap, vertices } = insertedVertices(sole.cap, edge.edges, edge.foot);
         return { kind: "handle", shape: { ...sole, cap }, handle: { kind: "vertex", vertices }, pull: 0 };
       }
     }
-    const inside = desk.selection.some((shape) => insideCap(shape.cap, ...press.image));
-    return inside ? { kind: "shape", shapes: desk.selection } : { kind: "view" };
+    const inside = selected.some((shape) => insideCap(shape.cap, ...press.image));
+    return inside ? { kind: "shape", shapes: selected } : { kind: "view" };
   }
 
   /** @type {(press: Press) => void} */
@@ -124,29 +126,29 @@ export class SelectTool {
     if (!start || !grip) return;
     if (!this.#moved && apart(press.screen, start.screen) < (grip.kind === "handle" ? 1 : CLICK_PX)) return;
     this.#moved = true;
-    this.#desk.hover(null);
+    this.#state.selection.hover(null);
     const dx = hundredths(press.image[0] - start.image[0]);
     const dy = hundredths(press.image[1] - start.image[1]);
     if (grip.kind === "handle") this.#dragHandle(grip, dx, dy, press.alt);
-    else if (grip.kind === "shape") this.#desk.propose(grip.shapes.map((shape) => movedShape(shape, dx, dy)));
+    else if (grip.kind === "shape") this.#state.propose(grip.shapes.map((shape) => movedShape(shape, dx, dy)));
     else if (grip.kind === "band") this.#band(grip, press);
-    else this.#desk.lens.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
+    else this.#state.viewport.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
     this.#last = press.screen;
   }
 
   /** @type {(grip: Grip & {kind: "handle"}, dx: number, dy: number, alone: boolean) => void} */
   #dragHandle({ shape, handle, pull }, dx, dy, alone) {
     const from = this.#start?.image ?? [0, 0];
-    this.#desk.active = handle;
+    this.#state.selection.activate(handle);
     this.#keepsActive = true;
     const cap = movedHandle(shape.cap, handle, { dx, dy, from, pull: alone ? 0 : pull });
-    this.#desk.propose([withCap(shape, cap)]);
+    this.#state.propose([withCap(shape, cap)]);
   }
 
   /** @type {(grip: Grip & {kind: "band"}, press: Press) => void} */
   #band(grip, press) {
     grip.to = press.image;
-    this.#desk.signals.overlay.emit();
+    this.#state.signals.overlay.emit();
   }
 
   /** @type {(press: Press) => void} */
@@ -155,7 +157,7 @@ export class SelectTool {
     if (!grip) return;
     if (this.#moved) {
       if (grip.kind === "band") this.#selectBand(grip);
-      else this.#desk.settle();
+      else this.#state.commitDrafts();
     } else if (grip.kind === "handle" && press.alt) {
       this.#removeVertex(grip.handle);
     } else {
@@ -167,26 +169,26 @@ export class SelectTool {
 
   /** @type {(press: Press) => void} */
   #click(press) {
-    const desk = this.#desk;
+    const state = this.#state;
     if (this.#grip?.kind === "handle") {
       this.#keepsActive = true;
       return;
     }
-    const item = pick(desk.pickable, press.image, EDGE_PX / desk.lens.view.scale);
-    if (!press.shift) return desk.select(item ? [item.uid] : []);
+    const item = state.at(press.image, this.#pixels(EDGE_PX));
+    if (!press.shift) return state.select(item ? [item.uid] : []);
     if (!item) return;
-    const others = [...desk.selected].filter((uid) => uid !== item.uid);
-    desk.select(desk.selected.has(item.uid) ? others : [...others, item.uid]);
+    const others = [...state.selection.uids].filter((uid) => uid !== item.uid);
+    state.select(state.selection.has(item.uid) ? others : [...others, item.uid]);
   }
 
   /** @type {(grip: Grip & {kind: "band"}) => void} */
   #selectBand(grip) {
-    const desk = this.#desk;
-    const found = within(desk.pickable, this.#bandBounds(grip));
-    desk.select([...new Set([...desk.selected, ...found.map(({ uid }) => uid)])]);
+    const state = this.#state;
+    const found = state.within(this.#bandBounds(grip));
+    state.select([...new Set([...state.selection.uids, ...found.map(({ uid }) => uid)])]);
   }
 
-  /** @type {(grip: Grip & {kind: "band"}) => import("../../geometry/view.js").Bounds} */
+  /** @type {(grip: Grip & {kind: "band"}) => import("../../geometry/bounds.js").Bounds} */
   #bandBounds({ to }) {
     const [x, y] = this.#start?.image ?? to;
     return { x0: Math.min(x, to[0]), y0: Math.min(y, to[1]), x1: Math.max(x, to[0]), y1: Math.max(y, to[1]) };
@@ -194,30 +196,31 @@ export class SelectTool {
 
   /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
   back() {
-    const { sole, lens } = this.#desk;
-    return sole !== null && handlesAreApart(sole, lens.view.scale) && this.#removeVertex(this.#under);
+    const { sole } = this.#state;
+    const apart = sole !== null && handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX));
+    return apart && this.#removeVertex(this.#under);
   }
 
   /** @type {(handle: Handle | null) => boolean} */
   #removeVertex(handle) {
-    const desk = this.#desk;
-    const sole = desk.sole;
+    const { selection, sole } = this.#state;
     if (!sole || handle?.kind !== "vertex") return false;
     const cap = removedVertices(sole.cap, handle.vertices);
-    desk.active = this.#under = null;
-    if (cap) desk.commit([changed(sole, { ...sole, cap })]);
+    this.#under = null;
+    selection.activate(null);
+    if (cap) this.#state.commit([changed(sole, { ...sole, cap })]);
     return true;
   }
 
   /** @type {(press: Press) => void} */
   double(press) {
-    if (pick(this.#desk.pickable, press.image, 0)) this.#desk.reveal({ close: true });
+    if (this.#state.at(press.image, 0)) this.#state.reveal({ close: true });
   }
 
   cancel() {
     const busy = this.#grip !== null && this.#moved;
     this.#grip = null;
-    this.#desk.withdraw();
+    this.#state.withdraw();
     return busy;
   }
 

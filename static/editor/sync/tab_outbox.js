@@ -5,7 +5,9 @@
  * @module
  */
 
-import { Outbox, keysWith } from "./outbox.js";
+import { newId } from "../ids.js";
+import { Outbox } from "./outbox.js";
+import { keysWith } from "./stored_edits.js";
 
 const ROOT = "fairyring:outbox:";
 
@@ -69,10 +71,4 @@ function lock(name) {
 async function abandoned(prefix) {
   if (!navigator.locks) return true;
   return navigator.locks.request(prefix, { ifAvailable: true }, (taken) => taken !== null);
-}
-
-/** An id nobody else has chosen. @returns {string} */
-export function newId() {
-  const bytes = crypto.getRandomValues(new Uint8Array(12));
-  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }

@@ -1,20 +1,21 @@
 /**
- * Where on the photo the annotator looks. Every image is found again as it was left.
+ * The part of the photo that is on screen, and how large. Every image is found again as it was left.
  *
  * @module
  */
 
-import { fitted, grown, onDevicePixels, panned, revealing, zoomed } from "./view.js";
+import { grown } from "../geometry/bounds.js";
+import { fitted, onDevicePixels, panned, revealing, zoomed } from "../geometry/view.js";
 
 /** @typedef {import("../protocol.js").Image} Image */
-/** @typedef {import("./view.js").Bounds} Bounds */
-/** @typedef {import("./view.js").Size} Size */
-/** @typedef {import("./view.js").View} View */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
+/** @typedef {import("../geometry/view.js").Size} Size */
+/** @typedef {import("../geometry/view.js").View} View */
 
-export class Lens {
+export class Viewport {
   /** @type {View} */
   view = { scale: 1, x: 0, y: 0 };
-  /** Of the viewport, CSS pixels. @type {Size} */
+  /** CSS pixels. @type {Size} */
   size = { width: 0, height: 0 };
   /** @type {Image | null} */
   #image = null;
@@ -27,17 +28,17 @@ export class Lens {
     this.#moved = moved;
   }
 
-  /** Turns to an image, which may be the same one anew. @type {(image: Image) => void} */
-  turnTo(image) {
+  /** Shows an image, which may be the same one anew. @type {(image: Image) => void} */
+  open(image) {
     const same = this.#image?.id === image.id;
     if (this.#image && !same) this.#views.set(this.#image.id, this.view);
     this.#image = image;
     const known = this.#views.get(image.id);
-    if (!same && known) this.#look(known);
+    if (!same && known) this.#show(known);
     else if (!same) this.fit();
   }
 
-  /** The viewport has another size; what was in its middle stays there. @type {(size: Size) => void} */
+  /** What was in the middle stays there. @type {(size: Size) => void} */
   resize({ width, height }) {
     const first = this.size.width === 0;
     const [dx, dy] = [(width - this.size.width) / 2, (height - this.size.height) / 2];
@@ -47,24 +48,24 @@ export class Lens {
   }
 
   /** @type {(view: View) => void} */
-  #look(view) {
-    this.view = onDevicePixels(view, window.devicePixelRatio);
+  #show(view) {
+    this.view = onDevicePixels(view, globalThis.devicePixelRatio ?? 1);
     this.#moved();
   }
 
   /** @type {(dx: number, dy: number) => void} */
   panBy(dx, dy) {
-    this.#look(panned(this.view, dx, dy));
+    this.#show(panned(this.view, dx, dy));
   }
 
   /** @type {(x: number, y: number, factor: number) => void} */
   zoomAt(x, y, factor) {
-    this.#look(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
+    this.#show(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
   }
 
   /** Shows the whole photo. */
   fit() {
-    this.#look(this.#fittingView());
+    this.#show(this.#fittingView());
   }
 
   #fittingView() {
@@ -75,7 +76,7 @@ export class Lens {
   /** Brings a part of the photo into view. @type {(bounds: Bounds, how: {close: boolean}) => void} */
   reveal(bounds, { close }) {
     const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    this.#look(
+    this.#show(
       close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
     );
   }

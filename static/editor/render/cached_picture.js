@@ -1,24 +1,25 @@
 /**
- * A picture of the image that outlives the frame it was drawn in. It is drawn with a margin around the
- * viewport and then only moved (and, while zooming, stretched) by the compositor, until a fresh one is
- * ready to take its place. While it is being zoomed and still fills the viewport, none is made.
+ * A picture that outlives the frame it was drawn in. It is drawn with a margin around the viewport and then
+ * only moved (and, while zooming, stretched) by the compositor, until a fresh one is ready to take its
+ * place. While it is being zoomed and still fills the viewport, none is made.
  *
  * @module
  */
 
-import { Sheet } from "./bitmap_canvas.js";
-import { joined, overlap, toScreen, visibleBounds } from "../geometry/view.js";
+import { joined, overlap } from "../geometry/bounds.js";
+import { toScreen, visibleBounds } from "../geometry/view.js";
+import { BitmapCanvas } from "./bitmap_canvas.js";
 
-/** @typedef {import("../geometry/view.js").Bounds} Bounds */
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {import("../geometry/view.js").View} View */
-/** @typedef {{view: View, width: number, height: number, ratio: number}} Frame  what a picture is to show, CSS pixels */
+/** @typedef {{view: View, width: number, height: number, ratio: number}} Extent  what a picture is to show, CSS pixels */
 /** @typedef {OffscreenCanvasRenderingContext2D} Context */
 
 /**
- * @typedef {Object} Artist
+ * @typedef {Object} Painter
  * @property {(context: Context, view: View, region: Bounds) => void} paint  at once
- * @property {(frame: Frame) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
+ * @property {(extent: Extent) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
  * @property {() => void} ready  a better picture has come, or can be made now: show it again
  */
 
@@ -26,10 +27,10 @@ const MARGIN = 96;
 const REST_MS = 80;
 const MOST_STRETCH = 2;
 
-export class Surface {
+export class CachedPicture {
   visible = true;
-  #sheet;
-  /** What is drawn on the sheet. @type {View | null} */
+  #canvas;
+  /** How the picture was drawn. @type {View | null} */
   #drawn = null;
   /** @type {Size} */
   #size = { width: 0, height: 0 };
@@ -40,15 +41,15 @@ export class Surface {
   /** What was shown last. @type {View | null} */
   #shown = null;
   #resting = 0;
-  #artist;
+  #painter;
 
   /**
    * @param {HTMLElement} host
-   * @param {Artist} artist
+   * @param {Painter} painter
    */
-  constructor(host, artist) {
-    this.#artist = artist;
-    this.#sheet = new Sheet(host);
+  constructor(host, painter) {
+    this.#painter = painter;
+    this.#canvas = new BitmapCanvas(host);
   }
 
   /** The picture is of something else now; the old one stays until the new one is there. */
@@ -65,7 +66,7 @@ export class Surface {
 
   /** @type {(filter: string) => void} */
   tint(filter) {
-    this.#sheet.canvas.style.filter = filter;
+    this.#canvas.canvas.style.filter = filter;
   }
 
   /**
@@ -86,7 +87,7 @@ export class Surface {
     if (!good && !this.#mayRest(view)) this.#renew(view);
     this.#shown = view;
     this.#place(view);
-    return good || !this.#artist.order;
+    return good || !this.#painter.order;
   }
 
   /** Whether a stretched picture will do until the view has come to rest. @type {(view: View) => boolean} */
@@ -94,22 +95,22 @@ export class Surface {
     clearTimeout(this.#resting);
     const drawn = this.#drawn;
     if (this.#stale || !drawn || view === this.#shown || !fills(drawn, view, this.#size)) return false;
-    this.#resting = window.setTimeout(() => this.#artist.ready(), REST_MS);
+    this.#resting = window.setTimeout(() => this.#painter.ready(), REST_MS);
     return true;
   }
 
   /** @type {(view: View) => void} */
   #renew(view) {
-    const { order, paint } = this.#artist;
-    const frame = { view: ownView(view), ...sheetSize(this.#size), ratio: this.#ratio };
+    const { order, paint } = this.#painter;
+    const extent = { view: ownView(view), ...ownSize(this.#size), ratio: this.#ratio };
     if (!order) {
-      this.#cut(view);
-      paint(this.#sheet.context, frame.view, visibleBounds(frame.view, frame));
+      this.#clear(view);
+      paint(this.#canvas.context, extent.view, visibleBounds(extent.view, extent));
     } else if (!this.#job) {
       /** @type {{repairs: Bounds[]}} */
       const job = { repairs: [] };
       this.#job = job;
-      void order(frame).then((bitmap) => this.#take(job, view, bitmap));
+      void order(extent).then((bitmap) => this.#take(job, view, bitmap));
     }
   }
 
@@ -117,27 +118,27 @@ export class Surface {
   #take(job, view, bitmap) {
     if (this.#job === job) {
       this.#job = null;
-      this.#cut(view);
-      this.#sheet.put(bitmap);
+      this.#clear(view);
+      this.#canvas.put(bitmap);
       this.repair(job.repairs);
-      this.#artist.ready();
+      this.#painter.ready();
     } else bitmap.close();
   }
 
   /** @type {(view: View) => void} */
-  #cut(view) {
-    this.#sheet.cut(sheetSize(this.#size), this.#ratio);
+  #clear(view) {
+    this.#canvas.clear(ownSize(this.#size), this.#ratio);
     this.#drawn = view;
     this.#stale = false;
   }
 
   /** @type {(view: View) => void} */
   #place(view) {
-    const { canvas } = this.#sheet;
+    const { canvas } = this.#canvas;
     const drawn = this.#drawn;
     canvas.hidden = !drawn || !this.visible;
     if (!drawn) return;
-    this.#sheet.show();
+    this.#canvas.show();
     const stretch = view.scale / drawn.scale;
     const x = view.x - (drawn.x + MARGIN) * stretch;
     const y = view.y - (drawn.y + MARGIN) * stretch;
@@ -154,12 +155,12 @@ export class Surface {
     this.#job?.repairs.push(...rects);
     const view = this.#drawn;
     if (!view || this.#stale) return;
-    for (const rect of mergedRects(rects)) this.#repairOne(this.#sheet.context, ownView(view), rect);
+    for (const rect of mergedRects(rects)) this.#repairOne(this.#canvas.context, ownView(view), rect);
   }
 
   /** @type {(context: Context, view: View, rect: Bounds) => void} */
   #repairOne(context, view, rect) {
-    const { width, height } = sheetSize(this.#size);
+    const { width, height } = ownSize(this.#size);
     const [left, top] = toScreen(view, rect.x0, rect.y0).map((value) => Math.max(0, Math.floor(value) - 4));
     const [x1, y1] = toScreen(view, rect.x1, rect.y1);
     const size = {
@@ -172,17 +173,17 @@ export class Surface {
     context.rect(left, top, size.width, size.height);
     context.clip();
     context.clearRect(left, top, size.width, size.height);
-    this.#artist.paint(context, view, visibleBounds({ ...view, x: view.x - left, y: view.y - top }, size));
+    this.#painter.paint(context, view, visibleBounds({ ...view, x: view.x - left, y: view.y - top }, size));
     context.restore();
   }
 }
 
 /** @type {(size: Size) => Size} */
-function sheetSize({ width, height }) {
+function ownSize({ width, height }) {
   return { width: width + 2 * MARGIN, height: height + 2 * MARGIN };
 }
 
-/** The view of a sheet's own pixels, whose origin lies in the margin. @type {(view: View) => View} */
+/** The view of the picture's own pixels, whose origin lies in the margin. @type {(view: View) => View} */
 function ownView(view) {
   return { ...view, x: view.x + MARGIN, y: view.y + MARGIN };
 }
@@ -193,14 +194,14 @@ function covers(drawn, wanted) {
   return close && drawn.scale === wanted.scale;
 }
 
-/** Whether a sheet, stretched but not much, leaves nothing of the viewport bare. @type {(drawn: View, wanted: View, size: Size) => boolean} */
+/** Whether the picture, stretched but not much, leaves nothing of the viewport bare. @type {(drawn: View, wanted: View, size: Size) => boolean} */
 function fills(drawn, wanted, { width, height }) {
   const stretch = wanted.scale / drawn.scale;
   if (stretch === 1 || stretch > MOST_STRETCH) return false;
   const x = wanted.x - (drawn.x + MARGIN) * stretch;
   const y = wanted.y - (drawn.y + MARGIN) * stretch;
-  const sheet = sheetSize({ width, height });
-  return x <= 0 && y <= 0 && x + sheet.width * stretch >= width && y + sheet.height * stretch >= height;
+  const own = ownSize({ width, height });
+  return x <= 0 && y <= 0 && x + own.width * stretch >= width && y + own.height * stretch >= height;
 }
 
 /** Overlapping rectangles as one. @type {(rects: Bounds[]) => Bounds[]} */

@@ -1,0 +1,92 @@
+/**
+ * What a person can do by key or button, and the layers of the picture: names, words and keys, once for
+ * the keyboard, the key list and the panel. What a command does stands in `input/actions.js`.
+ *
+ * `words` are for the key list, `label` is for a button where that has other words. A key is written as the
+ * key list shows it. From its first brace on this is JSON: `app/editor_commands.py` reads it too.
+ *
+ * @module
+ */
+
+export default {
+  "groups": [
+    {
+      "title": "Tools",
+      "commands": [
+        { "name": "select", "keys": ["V"], "words": "Select and edit", "label": "Select" },
+        { "name": "polygon", "keys": ["W"], "words": "Draw a visible outline", "label": "Outline" },
+        { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
+        { "name": "pan", "keys": ["G"], "words": "Move the view", "label": "Pan" },
+        { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn" },
+        { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done, then deselect" },
+        {
+          "name": "delete",
+          "keys": ["Del", "Backspace"],
+          "words": "Delete the vertex under the pointer, else the selected caps; take back a point",
+          "label": "Delete"
+        }
+      ]
+    },
+    {
+      "title": "Caps",
+      "commands": [
+        { "name": "next_cap", "keys": ["Tab"], "words": "Next cap" },
+        { "name": "previous_cap", "keys": ["Shift+Tab"], "words": "Previous cap" },
+        { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
+        { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction" },
+        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions" },
+        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark, or clear the mark" },
+        { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
+        { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree" },
+        { "name": "ignored", "keys": ["I"], "words": "Ignored: counts neither way" },
+        { "name": "lower", "keys": ["["], "words": "Lower in the overlap order" },
+        { "name": "raise", "keys": ["]"], "words": "Higher in the overlap order" },
+        { "name": "nudge_left", "keys": ["←"], "words": "Move by a quarter of a pixel" },
+        { "name": "nudge_right", "keys": ["→"], "words": "Move by a quarter of a pixel" },
+        { "name": "nudge_up", "keys": ["↑"], "words": "Move by a quarter of a pixel" },
+        { "name": "nudge_down", "keys": ["↓"], "words": "Move by a quarter of a pixel" },
+        { "name": "push_left", "keys": ["Shift+←"], "words": "Move by a pixel" },
+        { "name": "push_right", "keys": ["Shift+→"], "words": "Move by a pixel" },
+        { "name": "push_up", "keys": ["Shift+↑"], "words": "Move by a pixel" },
+        { "name": "push_down", "keys": ["Shift+↓"], "words": "Move by a pixel" },
+        { "name": "undo", "keys": ["Ctrl+Z"], "words": "Undo" },
+        { "name": "redo", "keys": ["Ctrl+Shift+Z", "Ctrl+Y"], "words": "Redo" }
+      ]
+    },
+    {
+      "title": "Image",
+      "commands": [
+        { "name": "next_image", "keys": ["N", "PageDown"], "words": "Next image" },
+        { "name": "previous_image", "keys": ["P", "PageUp"], "words": "Previous image" },
+        { "name": "done", "keys": ["Ctrl+Enter"], "words": "Mark as annotated and go to the next" },
+        { "name": "fit", "keys": ["F"], "words": "Fit the photo" },
+        { "name": "zoom_selection", "keys": ["Z"], "words": "Zoom to the selection" },
+        { "name": "zoom_in", "keys": ["+", "="], "words": "Zoom in" },
+        { "name": "zoom_out", "keys": ["-"], "words": "Zoom out" },
+        { "name": "help", "keys": ["?"], "words": "This list", "label": "All keys" }
+      ]
+    }
+  ],
+  "layers": [
+    { "name": "photo", "key": "1", "words": "Photo", "shown": true },
+    { "name": "outline", "key": "2", "words": "Visible outlines", "shown": true },
+    { "name": "fill", "key": "3", "words": "Filled masks", "shown": true },
+    { "name": "whole", "key": "4", "words": "Whole outlines", "shown": true },
+    { "name": "centre", "key": "5", "words": "Centres", "shown": true },
+    { "name": "label", "key": "6", "words": "Labels", "shown": false },
+    { "name": "prediction", "key": "7", "words": "Predictions", "shown": true }
+  ],
+  "held": [
+    { "name": "pan", "key": "Space", "words": "Drag moves the view" },
+    { "name": "hide", "key": "H", "words": "Hide all shapes" }
+  ],
+  "gestures": [
+    { "gesture": "Wheel", "words": "Zoom to the pointer" },
+    { "gesture": "Drag the ground · middle or right drag", "words": "Move the view" },
+    { "gesture": "Click · Shift-click · Shift-drag", "words": "Select · add · select all inside" },
+    { "gesture": "Double click", "words": "Zoom to the cap" },
+    { "gesture": "Drag a vertex", "words": "Move it; a dense outline follows (Alt: this vertex only)" },
+    { "gesture": "Drag an edge", "words": "Put a vertex in" },
+    { "gesture": "Alt-click a vertex", "words": "Take it out" }
+  ]
+};

@@ -1,0 +1,233 @@
+/**
+ * The image on screen and what a person is doing to it. Tools and commands work on this and know nothing
+ * of canvases or sockets.
+ *
+ * @module
+ */
+
+import { joinedAll } from "../geometry/bounds.js";
+import { placedWhole } from "../geometry/caps.js";
+import { pick, within } from "../geometry/hit.js";
+import { boundsOf, isPrediction, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
+import { changed } from "./changes.js";
+import { Drafts } from "./drafts.js";
+import { Items } from "./items.js";
+import { Layers } from "./layers.js";
+import { Selection } from "./selection.js";
+import { signal } from "./signal.js";
+import { Store } from "./store.js";
+import { Viewport } from "./viewport.js";
+
+/** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../protocol.js").ImageContents} ImageContents */
+/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Image} Image */
+/** @typedef {import("../protocol.js").Point} Point */
+/** @typedef {import("../protocol.js").Prediction} Prediction */
+/** @typedef {import("./changes.js").Change} Change */
+
+export class EditorState {
+  /** @type {Image | null} */
+  image = null;
+  store = new Store();
+  items = new Items(this.store);
+  selection = new Selection();
+  drafts = new Drafts();
+  layers = new Layers();
+  viewport = new Viewport(() => this.signals.overlay.emit());
+  /** What the server said last about an outline. @type {Fit | null} */
+  fit = null;
+
+  signals = {
+    /** The picture of these shapes has changed. @type {import("./signal.js").Signal<[Shape[]]>} */
+    shapes: signal(),
+    /** The picture of everything has. @type {import("./signal.js").Signal<[]>} */
+    picture: signal(),
+    /** Only what is drawn over the picture has. @type {import("./signal.js").Signal<[]>} */
+    overlay: signal(),
+    /** @type {import("./signal.js").Signal<[]>} */
+    selection: signal(),
+    /** A cap is being changed, and so its outline. @type {import("./signal.js").Signal<[Shape]>} */
+    draft: signal(),
+    /** Caps were moved by a key and wait to be committed. @type {import("./signal.js").Signal<[]>} */
+    nudge: signal(),
+  };
+
+  #commit;
+
+  /** @param {(changes: Change[]) => void} commit  puts changes into the store and sends them */
+  constructor(commit) {
+    this.#commit = commit;
+    this.store.changed.listen((changes) => this.#storeChanged(changes));
+    this.selection.pointed.listen(() => this.signals.overlay.emit());
+    this.selection.changed.listen((before, after) => {
+      this.signals.shapes.emit([...before, ...after].flatMap((uid) => this.items.get(uid) ?? []));
+      this.signals.selection.emit();
+    });
+  }
+
+  /** @type {(changes: Change[]) => void} */
+  #storeChanged(changes) {
+    this.signals.shapes.emit(changes.flatMap(({ before, after }) => (before ? [before, after] : [after])));
+    if (!changes.some(({ after }) => after.deleted && this.selection.has(after.uid))) return;
+    this.commitDrafts();
+    this.selection.keep((uid) => this.items.get(uid) !== null);
+  }
+
+  /** The selected shapes, as they look while being changed. */
+  get selected() {
+    return [...this.selection.uids].flatMap((uid) => this.shape(uid) ?? []);
+  }
+
+  /** The one selected shape. @returns {Shape | null} */
+  get sole() {
+    const uid = this.selection.soleUid;
+    return uid === null ? null : this.shape(uid);
+  }
+
+  /** An item as it looks while being changed. @type {(uid: string) => Shape | null} */
+  shape(uid) {
+    return this.drafts.get(uid) ?? this.items.get(uid);
+  }
+
+  /**
+   * How the outline of the one selected cap came about; a placed one needs no telling.
+   *
+   * @returns {Fit | null}
+   */
+  get explanation() {
+    const { sole, fit } = this;
+    return sole && fit?.annotation === sole.uid && !placedWhole(sole.cap) ? fit : null;
+  }
+
+  /** The uids of what is drawn over the picture rather than in it. */
+  get lifted() {
+    const uids = new Set(this.drafts.all.map(({ uid }) => uid));
+    if (this.selection.soleUid !== null) uids.add(this.selection.soleUid);
+    return uids;
+  }
+
+  /** The items that the layers let one see. */
+  get visible() {
+    return this.#visibleOf(this.items.all);
+  }
+
+  /** @type {(shapes: Shape[]) => Shape[]} */
+  #visibleOf(shapes) {
+    return this.layers.visible.prediction ? shapes : shapes.filter((shape) => !isPrediction(shape));
+  }
+
+  /**
+   * The visible item at a point of the image, else the one whose outline is nearest within `reach` pixels.
+   *
+   * @param {Point} point
+   * @param {number} reach
+   * @returns {Shape | null}
+   */
+  at([x, y], reach) {
+    const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
+    return pick(this.#visibleOf(this.items.near(around)), [x, y], reach);
+  }
+
+  /** The visible items that lie wholly in the rectangle. @type {(bounds: Bounds) => Shape[]} */
+  within(bounds) {
+    return within(this.#visibleOf(this.items.near(bounds)), bounds);
+  }
+
+  /**
+   * Opens another image, or a fresh copy of the same. The store holds its annotations already.
+   *
+   * @param {ImageContents} contents
+   */
+  open({ image, predictions }) {
+    const same = this.image?.id === image.id;
+    this.image = image;
+    this.items.predictions = predictions.map(shapeOfPrediction);
+    this.drafts.clear();
+    this.selection.hover(null);
+    this.viewport.open(image);
+    const kept = same ? [...this.selection.uids].filter((uid) => this.items.get(uid)) : [];
+    // The server knows nothing of the selection after a break, so it is told even where it is the same.
+    if (!this.selection.set(kept)) this.signals.selection.emit();
+    this.signals.picture.emit();
+  }
+
+  /**
+   * Puts what a later run said in the place of what earlier ones did; what is being changed stays as it is.
+   *
+   * @param {Prediction[]} predictions
+   */
+  predict(predictions) {
+    const held = this.items.predictions.filter(({ uid }) => this.drafts.has(uid));
+    this.items.predictions = [...held, ...predictions.map(shapeOfPrediction)];
+    this.selection.hover(null);
+    this.selection.keep((uid) => this.items.get(uid) !== null);
+    this.signals.picture.emit();
+  }
+
+  /**
+   * @param {string[]} uids
+   * @param {{reveal?: boolean}} [how]
+   */
+  select(uids, { reveal = false } = {}) {
+    this.commitDrafts();
+    this.selection.set(uids);
+    if (reveal) this.reveal();
+  }
+
+  /** Brings the selection into view. @param {{close?: boolean}} [how] */
+  reveal({ close = false } = {}) {
+    const bounds = joinedAll(this.selected.flatMap((shape) => boundsOf(shape) ?? []));
+    if (bounds) this.viewport.reveal(bounds, { close });
+  }
+
+  /**
+   * Shows caps as they would become, without committing them.
+   *
+   * @param {Shape[]} shapes
+   */
+  propose(shapes) {
+    const { lifted } = this;
+    const fresh = shapes.filter(({ uid }) => !lifted.has(uid));
+    for (const shape of shapes) this.drafts.put(shape);
+    if (fresh.length) this.signals.shapes.emit(fresh.flatMap(({ uid }) => this.items.get(uid) ?? []));
+    if (shapes.length === 1) this.signals.draft.emit(shapes[0]);
+    this.signals.overlay.emit();
+  }
+
+  /** Forgets what was proposed. */
+  withdraw() {
+    const shapes = this.drafts.clear();
+    if (shapes.length) this.signals.shapes.emit(shapes.flatMap(({ uid }) => this.items.get(uid) ?? []));
+  }
+
+  /** Commits what was proposed, as one step. */
+  commitDrafts() {
+    const drafts = this.drafts.clear();
+    if (drafts.length === 0) return;
+    this.commit(
+      drafts.flatMap((draft) => {
+        const before = this.items.get(draft.uid);
+        return before && before.cap !== draft.cap ? [changed(before, draft)] : [];
+      }),
+    );
+    this.signals.overlay.emit();
+  }
+
+  /**
+   * Commits changes, to be undone in one step; the selection follows predictions that became annotations.
+   *
+   * @param {Change[]} changes
+   */
+  commit(changes) {
+    this.#commit(changes);
+    /** @type {Map<string, string>} */
+    const heirs = new Map();
+    for (const { before, after } of changes) {
+      const { prediction } = after.cap;
+      if (!before && !after.deleted && prediction !== null) heirs.set(uidOfPrediction(prediction), after.uid);
+    }
+    if ([...this.selection.uids].some((uid) => heirs.has(uid))) this.selection.follow(heirs);
+  }
+}

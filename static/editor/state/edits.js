@@ -1,0 +1,73 @@
+/**
+ * What is done to the selected caps.
+ *
+ * @module
+ */
+
+import { nudgedHandle } from "../geometry/handles.js";
+import { isPrediction, movedShape, withCap } from "../geometry/shapes.js";
+import { changed } from "./changes.js";
+
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../protocol.js").Cap} Cap */
+/** @typedef {import("./editor_state.js").EditorState} EditorState */
+
+const NUDGES_END_MS = 400;
+
+/**
+ * Changes the selected caps as `change` says; null leaves a cap alone.
+ *
+ * @param {EditorState} state
+ * @param {(cap: Cap, shape: Shape) => Cap | null} change
+ */
+export function changeSelected(state, change) {
+  state.commitDrafts();
+  const changes = state.selected.flatMap((shape) => {
+    const cap = change(shape.cap, shape);
+    return cap && cap !== shape.cap ? [changed(shape, withCap(shape, cap))] : [];
+  });
+  state.commit(changes);
+}
+
+/** Deletes the selected annotations and turns down the selected predictions. @type {(state: EditorState) => void} */
+export function deleteSelected(state) {
+  state.commitDrafts();
+  const shapes = state.selected;
+  state.select([]);
+  state.commit(shapes.map((shape) => changed(shape, { ...shape, deleted: true })));
+}
+
+/** Makes annotations of the selected predictions. @type {(state: EditorState) => void} */
+export function acceptSelected(state) {
+  state.commitDrafts();
+  accept(state, state.selected);
+}
+
+/** Makes annotations of all open predictions. @type {(state: EditorState) => void} */
+export function acceptAll(state) {
+  state.commitDrafts();
+  accept(state, state.items.all);
+}
+
+/** @type {(state: EditorState, shapes: Shape[]) => void} */
+function accept(state, shapes) {
+  state.commit(shapes.filter(isPrediction).map((shape) => changed(shape, shape)));
+}
+
+/**
+ * Moves the active handle, or all that is selected, by a fraction of a pixel. A burst is one step.
+ *
+ * @param {EditorState} state
+ * @param {number} dx
+ * @param {number} dy
+ */
+export function nudge(state, dx, dy) {
+  const handle = state.selection.soleUid === null ? null : state.selection.handle;
+  const moved = state.selected.map((shape) =>
+    handle ? withCap(shape, nudgedHandle(shape.cap, handle, dx, dy)) : movedShape(shape, dx, dy),
+  );
+  if (moved.length === 0) return;
+  state.drafts.commitAfter(NUDGES_END_MS, () => state.commitDrafts());
+  state.propose(moved);
+  state.signals.nudge.emit();
+}

@@ -1,0 +1,140 @@
+"""A tab and the real journal, with a line between them that breaks."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Any
+
+from fairyring.app.protocol import Edits
+from fairyring.storage.contents import load_annotation, load_annotations
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Cap, Edit
+from tests.support.browser_side import BrowserSide, Look
+
+IMAGE = 1
+
+
+def triangle(x: float) -> list[list[float]]:
+    """A visible outline whose right angle is at (x, 0)."""
+    return [[x, 0.0, x + 9.0, 0.0, x, 9.0]]
+
+
+@dataclass
+class TwoSides:
+    """Ada's tab shows the image; Bob changes it elsewhere."""
+
+    project: Project
+    browser: BrowserSide
+    look: Look = field(init=False)
+    refused: list[str] = field(default_factory=list)
+    up: bool = True
+    _wire: deque[Edits] = field(default_factory=deque)
+    _drawn: int = 0
+    _edits_of_bob: int = 0
+
+    def __post_init__(self) -> None:
+        self._tell("forget")
+        self.reconnect()
+
+    def _tell(self, what: str, *how: Any) -> None:
+        self.look = self.browser.tell(what, *how)
+        self._wire.extend(self.look.sent)
+        self.refused += self.look.refused
+
+    def create(self, uid: str, x: float = 0.0) -> None:
+        """Ada draws a cap."""
+        self._tell("create", uid, Cap(visible=triangle(x)))
+
+    def draw(self, x: float) -> None:
+        """Ada draws a cap whose uid nobody has used."""
+        self._drawn += 1
+        self.create(f"drawn{self._drawn}", x)
+
+    def become(self, **caps: Cap | None) -> None:
+        """Ada changes caps in one step; None deletes."""
+        self._tell("become", caps)
+
+    def move(self, uid: str, x: float) -> None:
+        """Ada moves a cap."""
+        self.become(**{uid: self.replaced(uid, visible=triangle(x))})
+
+    def replaced(self, uid: str, **fields: Any) -> Cap:
+        """A cap as Ada sees it, with other fields."""
+        cap = self.look.live[uid]
+        return Cap(**({name: getattr(cap, name) for name in Cap.__struct_fields__} | fields))
+
+    def do(self, what: str, *how: Any) -> None:
+        """Ada undoes, redoes, takes a prediction, resolves a conflict."""
+        self._tell(what, *how)
+
+    def serve(self, *, answer: bool = True) -> bool:
+        """The server stores one change set; the answer may get lost on its way. False when none has come."""
+        if not self._wire:
+            return False
+        edits = self._wire.popleft().edits
+        outcomes = commit(self.project, [Derived(edit=edit) for edit in edits], user="Ada")
+        if answer:
+            self._tell("receive", outcomes)
+        return True
+
+    def drain(self) -> None:
+        """The server stores everything that is sent."""
+        while self.serve():
+            pass
+
+    def cut(self) -> None:
+        """The line breaks; what was on its way is lost."""
+        self._wire.clear()
+        self.up = False
+        self._tell("disconnect")
+
+    def reconnect(self) -> None:
+        """The line is up again, and the server shows the image as it is now."""
+        self._wire.clear()
+        self.up = True
+        self._tell("disconnect")
+        self._tell("open", IMAGE, self.stored())
+        self._tell("connect")
+
+    def reload(self) -> None:
+        """The page is loaded anew: nothing is left but what the browser has kept."""
+        self._tell("reload")
+        self.reconnect()
+
+    def bob(self, uid: str, **fields: Any) -> None:
+        """Bob changes a cap, or deletes it (``cap=None``); Ada's tab is told while its line is up."""
+        now = self.annotation(uid)
+        named = {name: getattr(now.cap, name) for name in Cap.__struct_fields__}
+        cap = None if "cap" in fields else Cap(**(named | fields))
+        self._edits_of_bob += 1
+        edit = Edit(id=f"bob{self._edits_of_bob}", annotation=uid, image=IMAGE, base=now.revision, cap=cap)
+        commit(self.project, [Derived(edit=edit)], user="Bob")
+
+    def tell_of(self, uid: str) -> None:
+        """The server tells Ada's tab what has become of a cap."""
+        if self.up:
+            self._tell("changed", IMAGE, [self.annotation(uid)])
+
+    def annotation(self, uid: str) -> Annotation:
+        """As it is stored."""
+        with self.project.read() as connection:
+            found = load_annotation(connection, uid)
+        assert found is not None
+        return found
+
+    def stored(self) -> list[Annotation]:
+        """All live annotations of the image."""
+        with self.project.read() as connection:
+            return load_annotations(connection, IMAGE)
+
+    @property
+    def there(self) -> dict[str, Cap]:
+        """The caps as the store has them."""
+        return {annotation.uid: annotation.cap for annotation in self.stored()}
+
+    @property
+    def agree(self) -> bool:
+        """Whether both sides have the same caps."""
+        return self.look.live == self.there

@@ -1,0 +1,54 @@
+"""A project with one photo, copied for every trace, and a tab that shows it."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from fairyring.storage.importing.run import import_paths
+from fairyring.storage.project import create_project, open_project
+from tests.support.browser_side import BrowserSide
+from tests.support.two_sides import TwoSides
+
+Begin = Callable[[], AbstractContextManager[TwoSides]]
+
+
+@pytest.fixture(scope="session")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("sync")
+    assert cv2.imwrite(str(folder / "bed.png"), np.zeros((80, 100, 3), np.uint8))
+    with create_project(folder / "beds") as project:
+        import_paths(project, [folder / "bed.png"])
+    return folder / "beds"
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[BrowserSide]:
+    with BrowserSide() as started:
+        yield started
+
+
+@pytest.fixture(scope="session")
+def begin(made_once: Path, browser: BrowserSide, tmp_path_factory: pytest.TempPathFactory) -> Begin:
+    """Starts a trace: an empty image, and a tab that shows it."""
+
+    @contextmanager
+    def begin_() -> Iterator[TwoSides]:
+        folder = tmp_path_factory.mktemp("trace")
+        with open_project(shutil.copytree(made_once, folder / "beds")) as project:
+            yield TwoSides(project, browser)
+        shutil.rmtree(folder)
+
+    return begin_
+
+
+@pytest.fixture
+def sides(begin: Begin) -> Iterator[TwoSides]:
+    with begin() as both:
+        yield both
