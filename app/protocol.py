@@ -155,7 +155,7 @@ class Layers(FromServer, frozen=True, tag="layers"):
     """What the panel says is drawn, and how the photo looks."""
 
     visible: dict[str, bool]
-    """photo, outline, fill, whole, centre, label, prediction"""
+    """By the name of the layer."""
     brightness: float = 1.0
     contrast: float = 1.0
 

@@ -18,6 +18,7 @@ import viser
 
 from fairyring.app.caps.image_caps import Scene
 from fairyring.app.caps.nearby import Boxes
+from fairyring.app.editor_commands import LAYERS
 from fairyring.app.protocol import FromServer, Layers, Notice
 from fairyring.storage.images import ImageFilter
 from fairyring.storage.records import Annotation, Image, ImageContents
@@ -26,16 +27,6 @@ log = logging.getLogger(__name__)
 
 MOST_UNSENT = 2000
 """Messages a tab may lag behind before it is cut off; it comes back and loads its image afresh."""
-LAYERS = {
-    "photo": True,
-    "outline": True,
-    "fill": True,
-    "whole": True,
-    "centre": True,
-    "label": False,
-    "prediction": True,
-}
-"""What is drawn in a new tab."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +64,9 @@ class Session:
     position: int = 0
     count: int = 0
     selection: Selection = field(default_factory=Selection)
-    layers: Layers = field(default_factory=lambda: Layers(visible=dict(LAYERS)))
+    layers: Layers = field(
+        default_factory=lambda: Layers(visible={layer.name: layer.shown for layer in LAYERS.values()})
+    )
     waiting: int = 0
     """Edits the browser holds that are not acknowledged yet, by its own account."""
 

@@ -12,8 +12,8 @@ from fairyring.app.caps.image_caps import Scene
 from fairyring.app.caps.whole_outlines import Whole, whole_of
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.buttons import command_button
 from fairyring.app.panels.callbacks import Redraw
-from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.status import run_badge
 from fairyring.model.evaluate.centres import Pair
@@ -22,13 +22,6 @@ from fairyring.storage.contents import load_prediction, load_predictions, load_r
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
 
-COMMANDS = {
-    "accept": "Accept this prediction (A)",
-    "mark": "Take the outline as mark, or clear the mark (M)",
-    "doubtful": "Doubtful: a careful person could disagree (D)",
-    "ignored": "Ignored: counts neither way (I)",
-    "delete": "Delete (Del)",
-}
 Facts = list[tuple[str, Content]]
 
 
@@ -150,17 +143,7 @@ def summary(session: Session) -> Markup:
 
 
 def _inspector(*title: Markup, facts: Facts, commands: tuple[str, ...] = ()) -> Markup:
-    buttons = [
-        element(
-            "button",
-            icon(name),
-            type="button",
-            title=COMMANDS[name],
-            aria_label=COMMANDS[name],
-            data_fairyring_command=name,
-        )
-        for name in commands
-    ]
+    buttons = map(command_button, commands)
     rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
     return element(
         "section",

@@ -7,27 +7,18 @@ from typing import Any
 import msgspec
 import viser
 
-from fairyring.app.live.session import LAYERS, Session
+from fairyring.app.editor_commands import LAYERS
+from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
-
-LABELS = {
-    "photo": "Photo",
-    "outline": "Visible outlines",
-    "fill": "Filled masks",
-    "whole": "Whole outlines",
-    "centre": "Centres",
-    "label": "Labels",
-    "prediction": "Predictions",
-}
 
 
 def build(_workspace: Workspace, session: Session) -> Redraw:
     """Check boxes for the layers, sliders for the photo."""
     gui = session.client.gui
     boxes = {
-        name: gui.add_checkbox(f"{number}  {LABELS[name]}", shown, hint=f"Key {number}")
-        for number, (name, shown) in enumerate(LAYERS.items(), start=1)
+        layer.name: gui.add_checkbox(f"{layer.key}  {layer.words}", layer.shown, hint=f"Key {layer.key}")
+        for layer in LAYERS.values()
     }
     brightness = gui.add_slider("Brightness", 0.2, 3.0, 0.05, 1.0)
     contrast = gui.add_slider("Contrast", 0.2, 3.0, 0.05, 1.0)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.buttons import command_button
 from fairyring.app.panels.callbacks import Redraw
-from fairyring.app.panels.icons import icon
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.records import Run, Status
 
@@ -40,11 +38,11 @@ def _image_line(session: Session) -> list[Markup]:
     if image is None:
         return [element("strong", "No image open")]
     return [
-        step_button("previous", "Previous image (P)"),
+        command_button("previous_image", class_="fr-step"),
         element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
         element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
         element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
-        step_button("next", "Next image (N)"),
+        command_button("next_image", class_="fr-step"),
     ]
 
 
@@ -63,19 +61,6 @@ def _person_line(session: Session) -> list[Markup]:
             "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
         ),
     ]
-
-
-def step_button(direction: Literal["previous", "next"], title: str) -> Markup:
-    """Goes to the image before or after this one."""
-    return element(
-        "button",
-        icon(direction),
-        type="button",
-        class_="fr-step",
-        title=title,
-        aria_label=title,
-        data_fairyring_command=f"{direction}_image",
-    )
 
 
 def run_badge(run: Run) -> Markup:

@@ -22,7 +22,7 @@ DRAWINGS = {
         live
         jobs
         caps  weights
-        protocol  addresses  settings
+        protocol  addresses  settings  editor_commands
     """,
     "storage": """
         importing  exporting

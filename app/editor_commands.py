@@ -1,0 +1,62 @@
+"""What a person can do in the editor by key or button, and the layers of its picture: names, words, keys.
+
+They are declared once, in ``static/editor/commands.js``, for the keyboard, the key list and the panel.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import msgspec
+from msgspec import Struct
+
+_FILE = Path(__file__).resolve().parents[1] / "static" / "editor" / "commands.js"
+
+
+class Command(Struct, frozen=True, forbid_unknown_fields=True):
+    """Something that can be done without pointing."""
+
+    name: str
+    keys: list[str]
+    words: str
+    label: str = ""
+    """What a button says, where that is not ``words``."""
+
+    @property
+    def title(self) -> str:
+        """What a button says, and the first of the keys that do the same."""
+        return f"{self.label or self.words} ({self.keys[0]})"
+
+
+class Layer(Struct, frozen=True, forbid_unknown_fields=True):
+    """Part of the picture that can be hidden."""
+
+    name: str
+    key: str
+    words: str
+    shown: bool
+    """In a new tab."""
+
+
+class _Group(Struct, frozen=True, forbid_unknown_fields=True):
+    title: str
+    commands: list[Command]
+
+
+class _Declared(Struct, frozen=True):
+    groups: list[_Group]
+    layers: list[Layer]
+
+
+def _declared() -> _Declared:
+    """The data of the JavaScript module, which is JSON after ``export default``."""
+    _, _, data = _FILE.read_text(encoding="utf-8").partition("export default")
+    return msgspec.json.decode(data.strip().removesuffix(";"), type=_Declared)
+
+
+_DECLARED = _declared()
+
+COMMANDS = {command.name: command for group in _DECLARED.groups for command in group.commands}
+"""By name."""
+LAYERS = {layer.name: layer for layer in _DECLARED.layers}
+"""By name, in the order of their keys."""
