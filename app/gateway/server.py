@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import io
 import logging
 import socket
-import warnings
 import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
 import uvicorn
 import viser
@@ -24,6 +22,7 @@ from starlette.routing import Mount, Route, WebSocketRoute
 
 from fairyring.app.addresses import DOWNLOADS, PHOTOS
 from fairyring.app.gateway.downloads import downloads_of
+from fairyring.app.gateway.hidden_viser import Upstream, start_viser, stop_viser
 from fairyring.app.gateway.login import name_page
 from fairyring.app.gateway.photos import photos_of
 from fairyring.app.gateway.security import LOOPBACK, Guard
@@ -38,13 +37,9 @@ from fairyring.storage.project import open_project
 
 log = logging.getLogger(__name__)
 
-Result = TypeVar("Result")
-GREEN = (47, 111, 79)
-PANEL_WIDTH = 380
-"""Pixels."""
-LARGEST_FRAME = 64 * 2**20
-"""Bytes of one WebSocket frame from a browser; viser itself takes 50 MiB."""
 CLOSING_WITHIN_S = 3
+FRAME_MARGIN = 1024
+"""Bytes by which a frame may pass the limit of a message, so that the editor's socket can say so itself."""
 
 
 class ServerError(FairyringError):
@@ -76,29 +71,29 @@ def serve(
             if open_browser:
                 webbrowser.open(address)
 
-        server = _Server(configure(make_app(workspace)), announce)
+        server = _Server(configure(make_app(workspace), settings), announce)
         server.run(sockets=[listening])
 
 
 def make_app(workspace: Workspace) -> Starlette:
     """The ASGI application of a project; starts viser with its lifespan and stops it with it."""
-    viser_port = _free_port()
+    upstream = Upstream()
 
     @asynccontextmanager
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
-        panels = await asyncio.to_thread(_start_viser, viser_port, workspace.project.name)
+        panels = await asyncio.to_thread(partial(start_viser, upstream, label=workspace.project.name))
         _greet(panels, workspace, asyncio.get_running_loop())
         try:
             yield
         finally:
             await workspace.close()
-            await asyncio.to_thread(_quietly, panels.stop)
+            await asyncio.to_thread(stop_viser, panels)
 
     cache_limit = workspace.settings.photo_cache_mb * 2**20
     return Starlette(
         routes=[
             Route("/", shell_page),
-            WebSocketRoute("/", relay_to(viser_port)),
+            WebSocketRoute("/", relay_to(upstream)),
             WebSocketRoute("/editor", editor_of(workspace)),
             Route("/name", name_page, methods=["GET", "POST"]),
             Route(PHOTOS, photos_of(workspace.project, cache_limit=cache_limit)),
@@ -136,15 +131,15 @@ def _shown_host(host: str) -> str:
     return f"[{host}]" if ":" in host else "localhost" if host == "127.0.0.1" else host
 
 
-def configure(app: Starlette) -> uvicorn.Config:
-    """uvicorn for the gateway: silent, no compression, frames as large as viser takes them."""
+def configure(app: Starlette, settings: Settings) -> uvicorn.Config:
+    """uvicorn for the gateway: silent, no compression, frames as large as an editor's message may be."""
     return uvicorn.Config(
         app,
         log_config=None,
         access_log=False,
         server_header=False,
         ws="websockets-sansio",
-        ws_max_size=LARGEST_FRAME,
+        ws_max_size=settings.message_limit_mb * 2**20 + FRAME_MARGIN,
         ws_per_message_deflate=False,
         timeout_graceful_shutdown=CLOSING_WITHIN_S,
     )
@@ -161,32 +156,6 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started:
             self._announce()
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-def _start_viser(port: int, project_name: str) -> viser.ViserServer:
-    """viser on 127.0.0.1, not a word on stdout. Raises ServerError where it ends up on another port."""
-    # A tab may close at any moment; what is still on its way to it is of no use to anybody.
-    warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-    panels = _quietly(lambda: viser.ViserServer("127.0.0.1", port, label=project_name, verbose=False))
-    if panels.get_port() != port:
-        panels.stop()
-        raise ServerError("The port found for the panels was taken meanwhile; start again.")
-    panels.scene.world_axes.visible = False
-    panels.gui.configure_theme(show_logo=False, show_share_button=False, brand_color=GREEN)
-    panels.gui.main_panel.dock_right()
-    panels.gui.main_panel.set_width(PANEL_WIDTH)
-    return panels
-
-
-def _quietly(call: Callable[[], Result]) -> Result:
-    with contextlib.redirect_stdout(io.StringIO()):
-        return call()
 
 
 def _greet(panels: viser.ViserServer, workspace: Workspace, loop: asyncio.AbstractEventLoop) -> None:

@@ -1,4 +1,4 @@
-"""The WebSocket at ``/``: every frame goes to viser and back, untouched."""
+"""The WebSocket at ``/``: what the panel's controls say goes to viser, everything of viser's comes back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
+from fairyring.app.gateway.hidden_viser import Upstream
 from fairyring.app.gateway.login import name_of
+from fairyring.app.gateway.viser_messages import may_pass
 
 log = logging.getLogger(__name__)
 
@@ -22,8 +24,8 @@ UNSENDABLE = frozenset({1005, 1006, 1015})
 """Close codes that only report; a peer may not send them."""
 
 
-def relay_to(port: int) -> Callable[[WebSocket], Awaitable[None]]:
-    """The endpoint for viser on this port of 127.0.0.1."""
+def relay_to(upstream: Upstream) -> Callable[[WebSocket], Awaitable[None]]:
+    """The endpoint for the hidden viser."""
 
     async def relay(browser: WebSocket) -> None:
         if name_of(browser) is None:
@@ -32,15 +34,16 @@ def relay_to(port: int) -> Callable[[WebSocket], Awaitable[None]]:
         offered = [Subprotocol(name) for name in browser.scope["subprotocols"]]
         try:
             async with connect(
-                f"ws://127.0.0.1:{port}/",
+                f"ws://127.0.0.1:{upstream.port}/",
+                additional_headers=upstream.headers,
                 subprotocols=offered or None,
                 compression=None,
                 max_size=None,
                 ping_interval=None,
                 proxy=None,
-            ) as upstream:
-                await browser.accept(subprotocol=upstream.subprotocol)
-                await _pump(browser, upstream)
+            ) as panels:
+                await browser.accept(subprotocol=panels.subprotocol)
+                await _pump(browser, panels)
         except (OSError, WebSocketException) as error:
             log.warning("The panel's server cannot be reached: %s", error)
             await browser.close(UNREACHABLE)
@@ -48,11 +51,11 @@ def relay_to(port: int) -> Callable[[WebSocket], Awaitable[None]]:
     return relay
 
 
-async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
+async def _pump(browser: WebSocket, panels: ClientConnection) -> None:
     """Carries frames both ways until either side closes, then closes the other with the same code."""
     pumps = {
-        asyncio.create_task(_to_viser(browser, upstream)),
-        asyncio.create_task(_to_browser(browser, upstream)),
+        asyncio.create_task(_to_viser(browser, panels)),
+        asyncio.create_task(_to_browser(browser, panels)),
     }
     try:
         done, _ = await asyncio.wait(pumps, return_when=asyncio.FIRST_COMPLETED)
@@ -62,7 +65,7 @@ async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
             pump.cancel()
         await asyncio.gather(*pumps, return_exceptions=True)
     code = GOING_AWAY if code in UNSENDABLE else code
-    await upstream.close(code, reason)
+    await panels.close(code, reason)
     if (
         browser.application_state is WebSocketState.CONNECTED
         and browser.client_state is WebSocketState.CONNECTED
@@ -70,22 +73,25 @@ async def _pump(browser: WebSocket, upstream: ClientConnection) -> None:
         await browser.close(code, reason)
 
 
-async def _to_viser(browser: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+async def _to_viser(browser: WebSocket, panels: ClientConnection) -> tuple[int, str]:
     try:
         while True:
             frame = await browser.receive()
             if frame["type"] == "websocket.disconnect":
                 return frame.get("code") or GOING_AWAY, frame.get("reason") or ""
             data = frame.get("bytes")
-            await upstream.send(frame["text"] if data is None else data)
+            if data is not None and may_pass(data):
+                await panels.send(data)
+            else:
+                log.info("A message to the panel was dropped: it is none that a control makes.")
     except ConnectionClosed as closed:
         return _close_of(closed)
 
 
-async def _to_browser(browser: WebSocket, upstream: ClientConnection) -> tuple[int, str]:
+async def _to_browser(browser: WebSocket, panels: ClientConnection) -> tuple[int, str]:
     try:
         while True:
-            frame = await upstream.recv()
+            frame = await panels.recv()
             if isinstance(frame, str):
                 await browser.send_text(frame)
             else:

@@ -89,7 +89,8 @@ def shared_port(made_once: Path, tmp_path_factory: pytest.TempPathFactory) -> It
 def served(project: Project, **settings: object) -> Iterator[int]:
     """A real server in a thread."""
     listening = socket.create_server(("127.0.0.1", 0))
-    server = uvicorn.Server(configure(make_app(Workspace(project, Settings(**settings)))))
+    given = Settings(**settings)
+    server = uvicorn.Server(configure(make_app(Workspace(project, given)), given))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
     thread.start()
     until(lambda: server.started, "the server")
