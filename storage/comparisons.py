@@ -91,13 +91,6 @@ def list_comparisons(
     return ComparisonPage(rows=rows, total=total)
 
 
-def get_comparison(connection: Connection, image_id: int, run_id: int) -> Comparison | None:
-    """What is known of one image, stale or not."""
-    found = select(comparison).where(comparison.c.image == image_id, comparison.c.run == run_id)
-    row = connection.execute(found).first()
-    return None if row is None else _comparison_of(row)
-
-
 def stale_images(connection: Connection, run_id: int) -> list[int]:
     """Images with caps whose figures against this run, their latest, are missing or out of date."""
     statement = (

@@ -140,11 +140,6 @@ def latest_run(connection: Connection) -> Run | None:
     return None if row is None else run_of(row)
 
 
-def list_runs(connection: Connection) -> list[Run]:
-    """All runs, the latest first."""
-    return [run_of(row) for row in connection.execute(select(run).order_by(run.c.id.desc()))]
-
-
 def _values(
     connection: Connection, new: NewPrediction, categories: dict[str, int], *, width: int, height: int
 ) -> dict[str, Any]:

@@ -23,7 +23,6 @@ from starlette.responses import HTMLResponse, RedirectResponse, Response
 from fairyring.app.gateway.login import ask_for_name, name_of
 from fairyring.model.errors import FairyringError
 
-TITLE = "Fairyring"
 HEAD = """
     <title>Fairyring</title>
     <link rel="icon" type="image/svg+xml" href="/static/icon.svg">

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from msgspec.structs import replace
 
-from fairyring.model.geometry.shapes import Circle, Ellipse, Points, canonical_ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse, Points, ellipse_of_rotated_box
 
 
 def least_squares_ellipse(points: Points) -> Ellipse | None:
@@ -23,8 +23,7 @@ def least_squares_ellipse(points: Points) -> Ellipse | None:
     local = (points - origin).astype(np.float32)
     if np.linalg.matrix_rank(local, tol=1e-3) < 2:
         return None
-    (cx, cy), (first, second), angle = cv2.fitEllipseDirect(local)
-    found = canonical_ellipse(cx, cy, first / 2, second / 2, angle)
+    found = ellipse_of_rotated_box(cv2.fitEllipseDirect(local))
     if not all(map(isfinite, (found.cx, found.cy, found.a, found.b, found.theta_deg))) or found.b <= 0:
         return None
     return replace(found, cx=found.cx + float(origin[0]), cy=found.cy + float(origin[1]))

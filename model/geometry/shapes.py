@@ -16,6 +16,7 @@ alone and needs only numpy.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from msgspec import Struct
@@ -83,19 +84,9 @@ def centres_of_pixels(indices: ArrayLike) -> Points:
     return np.asarray(indices, dtype=np.float64).reshape(-1, 2) + 0.5
 
 
-def indices_of_points(points: ArrayLike) -> Points:
-    """Continuous points as fractional pixel indices (n, 2), the way OpenCV counts: not rounded."""
-    return np.asarray(points, dtype=np.float64).reshape(-1, 2) - 0.5
-
-
 def keypoint_of_centre(centre: Centre) -> tuple[float, float]:
     """A centre as the x, y of a COCO keypoint, which is a pixel index."""
     return centre[0] - 0.5, centre[1] - 0.5
-
-
-def centre_of_keypoint(x: float, y: float) -> Centre:
-    """The x, y of a COCO keypoint as a centre."""
-    return x + 0.5, y + 0.5
 
 
 def canonical_ellipse(cx: float, cy: float, a: float, b: float, theta_deg: float) -> Ellipse:
@@ -106,7 +97,7 @@ def canonical_ellipse(cx: float, cy: float, a: float, b: float, theta_deg: float
     return Ellipse(cx, cy, a, b, theta_deg % 180.0 % 180.0)
 
 
-def ellipse_of_rotated_box(box: tuple[tuple[float, float], tuple[float, float], float]) -> Ellipse:
+def ellipse_of_rotated_box(box: tuple[Sequence[float], Sequence[float], float]) -> Ellipse:
     """What ``cv2.fitEllipse`` returns (centre, full axes, degrees of the first) as an Ellipse.
 
     The centre is in the coordinates of the points that were fitted.

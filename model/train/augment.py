@@ -14,11 +14,8 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from fairyring.model.geometry.shapes import (
-    Circle,
-    Ellipse,
     Outline,
     Points,
-    canonical_ellipse,
     part_of_points,
     points_of_part,
 )
@@ -67,16 +64,13 @@ def motion_of(augmentation: Augmentation, *, width: int, height: int) -> Affine:
     return np.column_stack([linear, middle - linear @ middle])
 
 
-def augment_image(image: NDArray[np.uint8], augmentation: Augmentation) -> NDArray[np.uint8]:
-    """(height, width) or (height, width, channels) → the same shape."""
-    height, width = image.shape[:2]
-    motion = motion_of(augmentation, width=width, height=height)
+def move_image(image: NDArray[np.uint8], motion: Affine, *, width: int, height: int) -> NDArray[np.uint8]:
+    """(h, w) or (h, w, channels) → what ``motion`` takes into a picture of this size; black from outside."""
     # OpenCV counts from the first pixel's centre.
     indices = motion.copy()
     indices[:, 2] += motion[:, :2] @ (0.5, 0.5) - 0.5
     moved = cv2.warpAffine(image, indices, (width, height), flags=cv2.INTER_LINEAR)
-    brightened = cv2.convertScaleAbs(moved, alpha=augmentation.brightness)
-    return np.asarray(brightened, dtype=np.uint8)
+    return np.asarray(moved, dtype=np.uint8)
 
 
 def move_points(points: Points, motion: Affine) -> Points:
@@ -87,13 +81,3 @@ def move_points(points: Points, motion: Affine) -> Points:
 def move_outline(outline: Outline, motion: Affine) -> Outline:
     """An outline where the image takes it; it may leave the image."""
     return [part_of_points(move_points(points_of_part(part), motion)) for part in outline]
-
-
-def move_shape(shape: Circle | Ellipse, motion: Affine) -> Circle | Ellipse:
-    """A circle or an ellipse where the image takes it."""
-    ((x, y),) = move_points(np.array([[shape.cx, shape.cy]]), motion).tolist()
-    if isinstance(shape, Circle):
-        return Circle(x, y, shape.r)
-    theta = math.radians(shape.theta_deg)
-    along = motion[:, :2] @ (math.cos(theta), math.sin(theta))
-    return canonical_ellipse(x, y, shape.a, shape.b, math.degrees(math.atan2(along[1], along[0])))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fairyring.model.geometry.raster import Mask, mask_of_outline
 from fairyring.model.geometry.shapes import Outline, bounds_of_outline
 from fairyring.model.network.config import FRAME
-from fairyring.model.train.augment import Affine, Augmentation, motion_of, move_outline
+from fairyring.model.train.augment import Affine, Augmentation, motion_of, move_image, move_outline
 
 LEAST_VISIBLE = 24
 """Pixels of a cap in the crop below which it is not learnt there."""
@@ -134,10 +134,7 @@ def _photograph(
     rng: np.random.Generator,
 ) -> NDArray[np.uint8]:
     """The crop's pixels, as another camera in another light might have taken them."""
-    # OpenCV counts from the first pixel's centre.
-    indices = motion.copy()
-    indices[:, 2] += motion[:, :2] @ (0.5, 0.5) - 0.5
-    seen = cv2.warpAffine(photo, indices, (config.side, config.side), flags=cv2.INTER_LINEAR)
+    seen = move_image(photo, motion, width=config.side, height=config.side)
     gains = brightness * rng.uniform(1 - config.most_gain, 1 + config.most_gain, 3)
     gamma = rng.uniform(1 - config.most_gamma, 1 + config.most_gamma)
     levels = 255 * (np.arange(256)[:, None] / 255) ** gamma * gains

@@ -3,7 +3,6 @@ from msgspec import structs
 
 from fairyring.storage.comparisons import (
     Comparison,
-    get_comparison,
     list_comparisons,
     stale_images,
     store_comparison,
@@ -12,6 +11,7 @@ from fairyring.storage.contents import load_version
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
+from tests.support.stored import stored_comparison
 
 
 def figures(image, **values):
@@ -56,10 +56,10 @@ def test_figures_come_back_as_they_were_stored_and_replace_older_ones(reviewed):
     for stored in (figures(1), whole):
         reviewed.write(lambda c, stored=stored: store_comparison(c, stored))
         with reviewed.read() as connection:
-            assert get_comparison(connection, 1, 1) == stored
+            assert stored_comparison(connection, 1, 1) == stored
     with reviewed.read() as connection:
         assert list_comparisons(connection, 1).total == 1
-        assert get_comparison(connection, 2, 1) is None
+        assert stored_comparison(connection, 2, 1) is None
 
 
 def test_an_edit_makes_the_figures_stale(reviewed, square):
@@ -117,5 +117,5 @@ def test_figures_belong_to_one_run(reviewed):
     reviewed.write(lambda c: store_comparison(c, figures(1)))
     reviewed.write(lambda c: store_comparison(c, structs.replace(figures(1), run=second, caps=7)))
     with reviewed.read() as connection:
-        assert get_comparison(connection, 1, 1).caps == 2
-        assert get_comparison(connection, 1, second).caps == 7
+        assert stored_comparison(connection, 1, 1).caps == 2
+        assert stored_comparison(connection, 1, second).caps == 7

@@ -1,7 +1,7 @@
 import pytest
 
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.contents import load_annotation, load_contents
+from fairyring.storage.contents import load_contents
 from fairyring.storage.derived import (
     AnnotationFit,
     Fit,
@@ -14,6 +14,7 @@ from fairyring.storage.derived import (
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
+from tests.support.stored import stored_annotation
 
 FIT = Fit(whole=Circle(20, 20, 10), centre=(20.0, 20.0))
 
@@ -83,7 +84,7 @@ def test_a_fit_of_an_older_revision_is_dropped(lacking, square):
     stale = AnnotationFit(uid="a", revision=1, fit=FIT)
     assert lacking.write(lambda c: store_derived(c, 1, annotations=[stale])) == 0
     with lacking.read() as connection:
-        assert load_annotation(connection, "a").whole is None
+        assert stored_annotation(connection, "a").whole is None
 
 
 def test_predictions_of_an_older_run_are_left_alone(lacking):

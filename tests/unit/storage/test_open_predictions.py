@@ -38,7 +38,7 @@ def is_offered(outline, *, beside=None, whole=None, **cap):
         (box(60, 40, 90, 70), True),
     ],
 )
-def test_a_prediction_that_lies_on_an_annotation_is_settled(outline, expected):
+def test_a_prediction_that_lies_on_an_annotation_is_no_longer_open(outline, expected):
     assert is_offered(outline) is expected
 
 

@@ -20,10 +20,10 @@ from fairyring.storage.predictions import (
     add_run,
     continued_run,
     latest_run,
-    list_runs,
     seen_by,
 )
 from fairyring.storage.records import Cap, Edit
+from tests.support.stored import stored_runs
 
 
 def predict(project, square, *, name="r", image=1, scores=(0.9, 0.5), **keys):
@@ -41,7 +41,7 @@ def test_a_run_keeps_what_made_it(project):
     )
     with project.read() as connection:
         assert load_run(connection, run.id) == latest_run(connection) == run
-        assert list_runs(connection) == [run]
+        assert stored_runs(connection) == [run]
     assert (run.name, run.kind, run.weights, run.settings) == ("night", "network", "abc", {"grid": [40, 36]})
 
 

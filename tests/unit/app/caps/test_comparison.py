@@ -14,12 +14,13 @@ from fairyring.app.jobs.runner import CancelledError
 from fairyring.app.protocol import Show
 from fairyring.model.geometry.shapes import Circle
 from fairyring.model.progress import silent
-from fairyring.storage.comparisons import get_comparison, list_comparisons, stale_images
+from fairyring.storage.comparisons import list_comparisons, stale_images
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Edit
+from tests.support.stored import stored_comparison
 from tests.support.tab import Tab, new_cap, until
 from tests.unit.app.conftest import circle
 
@@ -112,5 +113,5 @@ def test_an_edit_in_a_tab_brings_the_review_up_to_date(port: int, project: Proje
         until(lambda: "up to 2.00 %" in tab.panel.html, "the plot")
         assert 'data-fairyring-select="cap-1"' in tab.panel.html
     with project.read() as connection:
-        assert get_comparison(connection, 1, 1).dx == pytest.approx(-3.2)
+        assert stored_comparison(connection, 1, 1).dx == pytest.approx(-3.2)
         assert list_comparisons(connection, 1).total == 1

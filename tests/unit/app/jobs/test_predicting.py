@@ -23,9 +23,9 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.predict.predictor import Predictor
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.images import ImageFilter, list_ids
-from fairyring.storage.predictions import list_runs
 from fairyring.storage.project import Project
 from tests.support.sighted import write_weights
+from tests.support.stored import stored_runs
 from tests.support.tab import Tab, new_cap, until
 
 
@@ -55,7 +55,7 @@ def state(project: Project) -> list[object]:
     """Everything the store says of runs and predictions."""
     with project.read() as connection:
         ids = list_ids(connection, ImageFilter())
-        return [list_runs(connection), *(load_predictions(connection, i) for i in ids)]
+        return [stored_runs(connection), *(load_predictions(connection, i) for i in ids)]
 
 
 def test_predict_stores_outlines_scores_and_centres_with_the_weights_that_said_so(
@@ -126,7 +126,7 @@ def test_other_weights_or_redo_make_a_run_of_their_own_which_is_then_shown(
     assert predict_images(project, network, ids[:1]).images == 1, "its predictions are no longer shown"
     assert predict_images(project, network, ids[:1], redo=True).images == 1
     with project.read() as connection:
-        runs = list_runs(connection)
+        runs = stored_runs(connection)
         shown = load_contents(connection, ids[0]).run
     assert [run.kind for run in runs] == ["network"] * 4 + ["simulated"]
     assert shown == runs[0]

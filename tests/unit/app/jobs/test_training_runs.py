@@ -15,9 +15,9 @@ import torch
 
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.journal import Derived, commit
-from fairyring.storage.predictions import list_runs
 from fairyring.storage.project import Project
 from tests.support.sighted import RECIPE, SMALL
+from tests.support.stored import stored_runs
 from tests.support.tab import until
 from tests.support.terminal import fairyring, sentence, train
 from tests.unit.app.conftest import circle
@@ -47,7 +47,7 @@ def test_what_was_trained_on_a_project_predicts_and_is_traced_to_the_revisions_i
     predicted = fairyring("predict", labelled.folder, "--weights", out / "weights.safetensors")
     assert predicted.exit_code == 0, predicted.output
     with labelled.read() as connection:
-        assert list_runs(connection)[0].weights == weights.digest
+        assert stored_runs(connection)[0].weights == weights.digest
 
 
 @pytest.mark.parametrize("to_all", [False, True])

@@ -17,11 +17,9 @@ from fairyring.model.geometry.shapes import (
     area_of_outline,
     bounds_of_outline,
     canonical_ellipse,
-    centre_of_keypoint,
     centres_of_pixels,
     diameter_of_shape,
     ellipse_of_rotated_box,
-    indices_of_points,
     keypoint_of_centre,
     points_of_part,
     polygon_of_shape,
@@ -39,12 +37,10 @@ def test_the_centre_of_a_disc_drawn_on_pixels_is_half_a_pixel_beyond_its_opencv_
     points = centres_of_pixels(contour)
 
     assert points.mean(axis=0) == pytest.approx([30.5, 20.5])
-    assert np.array_equal(indices_of_points(points), contour.reshape(-1, 2))
 
 
 def test_a_coco_keypoint_is_a_pixel_index() -> None:
     assert keypoint_of_centre((10.5, 7.25)) == (10.0, 6.75)
-    assert centre_of_keypoint(10.0, 6.75) == (10.5, 7.25)
 
 
 @given(cx=coordinates, cy=coordinates, a=radii, b=radii, theta=st.floats(-720, 720))

@@ -4,11 +4,12 @@ from pycocotools import mask
 from sqlalchemy import text
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
-from fairyring.storage.contents import load_annotation, load_annotations, load_version
+from fairyring.storage.contents import load_annotations, load_version
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Accepted, Cap
 from tests.support.edits import edit, journal_rows, one
+from tests.support.stored import stored_annotation
 from tests.unit.storage.conftest import TRIANGLE
 
 
@@ -38,7 +39,7 @@ def test_every_field_of_a_cap_is_kept(beds, square):
         outcome = one(beds, f"e{number}", annotation=f"cap{number}", cap=cap)
         assert isinstance(outcome, Accepted)
         with beds.read() as connection:
-            stored = load_annotation(connection, f"cap{number}")
+            stored = stored_annotation(connection, f"cap{number}")
         assert stored == outcome.annotation
         assert stored.cap == cap
 

@@ -3,10 +3,10 @@
 import msgspec
 import pytest
 
-from fairyring.storage.contents import load_annotation
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused
 from tests.support.edits import edit, journal_rows, one
+from tests.support.stored import stored_annotation
 from tests.unit.storage.conftest import TRIANGLE
 
 
@@ -16,7 +16,7 @@ def test_a_lost_update_is_a_conflict_that_shows_theirs_and_who(beds, cap):
     mine = one(beds, "e3", base=1, cap=Cap(visible=[]), user="ann")
     assert mine == Conflict(edit="e3", theirs=theirs.annotation, user="bob")
     with beds.read() as connection:
-        assert load_annotation(connection, "cap") == theirs.annotation
+        assert stored_annotation(connection, "cap") == theirs.annotation
 
 
 @pytest.mark.parametrize("base", [0, 2, 7])

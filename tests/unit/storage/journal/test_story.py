@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from sqlalchemy import delete, exc, update
 
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.contents import load_annotation
 from fairyring.storage.db import schema
 from fairyring.storage.journal import commit, history
 from fairyring.storage.project import open_project
 from fairyring.storage.records import Accepted, Cap, Conflict, Refused
 from tests.support.edits import edit, journal_rows, one
+from tests.support.stored import stored_annotation
 from tests.unit.storage.conftest import TRIANGLE
 
 
@@ -73,7 +73,7 @@ def test_any_sequence_of_edits_ends_as_a_simple_model_says(sets, project_of_thre
                 assert type(outcome) is expected_outcome(sent, seen, remembered[sent["annotation"]])
         with project.read() as connection:
             for name, memory in remembered.items():
-                stored = load_annotation(connection, name)
+                stored = stored_annotation(connection, name)
                 assert [entry.after for entry in history(connection, name)] == memory.revisions
                 if memory.revisions:
                     assert stored.revision == len(memory.revisions)
