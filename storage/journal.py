@@ -58,22 +58,16 @@ class Entry(Struct, frozen=True, kw_only=True):
 def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Outcome]:
     """Stores a change set in one transaction; on disk when this returns.
 
-    Each edit has an outcome of its own, in order: a conflict or a refusal does not keep the others out.
+    Caps are checked and repaired before it begins, so that nobody else waits for that. Each edit has an
+    outcome of its own, in order: a conflict or a refusal does not keep the others out.
     An edit sent before is accepted again, with the annotation as it is now.
 
     Raises:
         StoreError: the database cannot be written, or ``user`` is no name.
     """
     check_name(user, "name of a user")
-    return project.write(lambda connection: commit_on(connection, edits, user=user))
-
-
-def commit_on(connection: Connection, edits: Sequence[Derived], *, user: str) -> list[Outcome]:
-    """``commit`` within a transaction that is open already."""
-    categories = load_categories(connection)
-    outcomes = [_commit_one(connection, edit, user=user, categories=categories) for edit in edits]
-    recount(connection, (o.annotation.image for o in outcomes if isinstance(o, Accepted)))
-    return outcomes
+    checked = _check_caps(project, [derived.edit for derived in edits])
+    return project.write(lambda connection: _commit_all(connection, edits, checked, user=user))
 
 
 def history(connection: Connection, uid: str) -> list[Entry]:
@@ -100,8 +94,46 @@ def digest_of(edit: Edit) -> str:
     return sha256(json.encode(edit)).hexdigest()
 
 
+def _check_caps(project: Project, edits: Sequence[Edit]) -> list[Cap | FairyringError | None]:
+    """The cap of each edit as it can be stored, or why it cannot; None where the edit has none."""
+    checked: list[Cap | FairyringError | None] = []
+    with project.read() as connection:
+        for edit in edits:
+            try:
+                checked.append(None if edit.cap is None else _check(connection, edit.cap, edit.image))
+            except FairyringError as error:
+                checked.append(error)
+    return checked
+
+
+def _check(connection: Connection, cap: Cap, image_id: int) -> Cap:
+    photo = require_image(connection, image_id)
+    return check_cap(cap, width=photo.width, height=photo.height)
+
+
+def _commit_all(
+    connection: Connection,
+    edits: Sequence[Derived],
+    checked: Sequence[Cap | FairyringError | None],
+    *,
+    user: str,
+) -> list[Outcome]:
+    categories = load_categories(connection)
+    outcomes = [
+        _commit_one(connection, edit, cap, user=user, categories=categories)
+        for edit, cap in zip(edits, checked, strict=True)
+    ]
+    recount(connection, (o.annotation.image for o in outcomes if isinstance(o, Accepted)))
+    return outcomes
+
+
 def _commit_one(
-    connection: Connection, derived: Derived, *, user: str, categories: dict[str, int]
+    connection: Connection,
+    derived: Derived,
+    checked: Cap | FairyringError | None,
+    *,
+    user: str,
+    categories: dict[str, int],
 ) -> Outcome:
     edit = derived.edit
     try:
@@ -116,7 +148,7 @@ def _commit_one(
             raise StoreError("There is no such annotation; reload the image.")
         if current is not None and not _is_made_on(edit, current):
             return Conflict(edit=edit.id, theirs=current, user=editor)
-        cap = _checked(connection, edit, categories)
+        cap = _fitting(connection, edit, checked, categories)
     except FairyringError as error:
         return Refused(edit=edit.id, reason=str(error))
     return Accepted(
@@ -147,8 +179,11 @@ def _is_made_on(edit: Edit, current: Annotation) -> bool:
     return edit.base == current.revision and not (current.deleted and edit.cap is None)
 
 
-def _checked(connection: Connection, edit: Edit, categories: dict[str, int]) -> Cap | None:
-    photo = require_image(connection, edit.image)
+def _fitting(
+    connection: Connection, edit: Edit, checked: Cap | FairyringError | None, categories: dict[str, int]
+) -> Cap | None:
+    """The checked cap, once it is known to fit what else the project holds."""
+    require_image(connection, edit.image)
     if edit.cap is None:
         if edit.base == 0:
             raise StoreError("An annotation that was never made cannot be deleted.")
@@ -159,7 +194,9 @@ def _checked(connection: Connection, edit: Edit, categories: dict[str, int]) -> 
         raise StoreError(f"The project has no category “{edit.cap.category}”.")
     if edit.cap.prediction is not None:
         _require_prediction(connection, edit.cap.prediction, image_id=edit.image)
-    return check_cap(edit.cap, width=photo.width, height=photo.height)
+    if isinstance(checked, FairyringError):
+        raise checked
+    return checked
 
 
 def _require_prediction(connection: Connection, prediction_id: int, *, image_id: int) -> None:

@@ -17,7 +17,7 @@ from fairyring.app.protocol import Arc, Fit, Refit
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct
 from fairyring.model.contour.result import Arc as FoundArc
-from fairyring.model.geometry.raster import check_mark, check_outline
+from fairyring.model.geometry.outline_checks import check_mark, check_outline
 from fairyring.model.geometry.shapes import Circle, GeometryError, Polygon
 from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
@@ -55,11 +55,11 @@ def whole_of(uid: str, cap: Cap, scene: Scene) -> Whole:
 
     The cap is checked first, as the rasteriser must never see anything wild; the scene was checked before.
     """
-    size = {"width": scene.image.width, "height": scene.image.height}
+    width, height = scene.image.width, scene.image.height
     try:
         if cap.mark is not None:
-            return _from_mark(check_mark(cap.mark, **size))
-        outline = check_outline(cap.visible, **size)
+            return _from_mark(check_mark(cap.mark, width=width, height=height))
+        outline = check_outline(cap.visible, width=width, height=height)
     except GeometryError as error:
         return Whole(None, str(error))
     others = scene.near(uid, outline, prediction=cap.prediction, reach=REACH)

@@ -19,7 +19,7 @@ from fairyring.app.jobs.originals import original_of
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.raster import check_outline
+from fairyring.model.geometry.outline_checks import check_outline
 from fairyring.model.geometry.shapes import GeometryError, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights

@@ -11,7 +11,7 @@ from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.raster import check_outline
+from fairyring.model.geometry.outline_checks import check_outline
 from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import Circle, GeometryError
 from fairyring.model.progress import Progress, silent

@@ -18,7 +18,8 @@ from msgspec.structs import replace
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.mask_tracing import rim_of_mask
-from fairyring.model.geometry.raster import Rle, check_outline, check_rle, rle_of_outline
+from fairyring.model.geometry.outline_checks import check_outline
+from fairyring.model.geometry.raster import Rle, check_rle, rle_of_outline
 from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import (
     Centre,

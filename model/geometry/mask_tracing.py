@@ -1,222 +1,137 @@
-"""The rims of a mask as polygons: pixel edges, smooth fits to them, and bridges to holes.
+"""Masks as outlines that rasterise back to exactly the same pixels, and the rims of masks.
 
-A *crack* is the unit edge between a covered pixel and one that is not. Cracks join into closed loops that
-run clockwise on the screen around what is covered and anticlockwise around holes.
+A mask is a uint8 array (height, width), non-zero where covered.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry.shapes import Points, signed_area
+from fairyring.model.geometry.bridges import join_holes
+from fairyring.model.geometry.cracks import Loop, Loops, Piece, loops_of_mask
+from fairyring.model.geometry.polygon_fit import fit_polygon, knots_of_loop
+from fairyring.model.geometry.raster import Mask, mask_of_outline
+from fairyring.model.geometry.rle import checked_counts, cut_of_counts
+from fairyring.model.geometry.shapes import GeometryError, Outline, Points, part_of_points, without_repeats
 
-STEPS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
-"""x, y of a crack by its heading; heading + 1 is a turn to the right, towards what is covered."""
-INSIDE = np.array([[0, 0], [-1, 0], [-1, -1], [0, -1]])
-"""x, y of the covered pixel beside a crack, relative to the lattice point where the crack starts."""
-SMOOTHING_ROUNDS = 6
-"""The fit's error halves each round, from under half a pixel."""
+TOLERANCE = 0.5
+"""px; how far a smooth outline's vertices may first lie from the midpoints between its edges."""
+ROUNDS = 4
+"""Attempts at a smooth outline before the pixels' edges are taken."""
+GRID = 25
+"""Vertices a pixel of a smooth outline: no multiple of 1/25 lies where the rasteriser, which works in fifths,
+rounds one way or the other by the last bit."""
+SMALL = 8
+"""Pixels up to which a piece is drawn by its pixels' edges: a fit to so little is worth nothing."""
 
-
-@dataclass(frozen=True)
-class Loop:
-    """One closed chain of n cracks, in lattice coordinates of the whole mask."""
-
-    starts: NDArray[np.int64]
-    """(n, 2): x, y of where each crack starts."""
-    headings: NDArray[np.int64]
-    """(n,): rows of STEPS."""
-
-    @property
-    def midpoints(self) -> Points:
-        """(n, 2): half way between a covered pixel's centre and its neighbour's."""
-        return self.starts + STEPS[self.headings] / 2
-
-    @property
-    def inside(self) -> NDArray[np.int64]:
-        """(n, 2): column, row of the covered pixel beside each crack."""
-        return self.starts + INSIDE[self.headings]
-
-    @property
-    def outside(self) -> NDArray[np.int64]:
-        """(n, 2): column, row of the pixel across each crack; it may lie outside the image."""
-        return self.inside + STEPS[self.headings - 1]
-
-    @property
-    def corners(self) -> Points:
-        """(m, 2): the lattice points where the loop turns; this polygon covers exactly the loop's pixels."""
-        return self.starts[self.headings != np.roll(self.headings, 1)].astype(np.float64)
+MANY = 20
+"""Pieces and holes; a mask of more is noisy, and its specks are left out."""
+SPECK = 4
+"""Pixels below which a piece or a hole of a noisy mask is a speck."""
+SPECK_SHARE = 0.001
+"""Of the largest piece: likewise."""
+MOST_LOOPS = 500
+"""Pieces and holes that are left; more are refused."""
+MOST_BOXED = 1 << 26
+"""Pixels of the boxes around all pieces together."""
 
 
-@dataclass(frozen=True)
-class Component:
-    """One 8-connected piece of a mask."""
+def outline_of_mask(mask: Mask) -> Outline:
+    """An outline that rasterises back to exactly this mask; one part a piece (8-connected).
 
-    mask: NDArray[np.uint8]
-    """Its box cut out of the mask, one pixel wider on every side, without the other pieces."""
-    corner: tuple[int, int]
-    """x, y of that cut-out's first pixel in the mask: -1 for a piece at the border."""
-    loops: list[Loop]
-    """The outer one first, then the holes', in the cut-out's coordinates."""
+    Vertices are few, on a grid of 0.04 px, fitted by least squares to the points half way between inner and
+    outer pixels, so that the area is that of the mask and no rim is drawn in or out. Where such a smooth
+    polygon would change a pixel it gets more vertices there, and as a last resort the piece follows
+    its pixels' edges. Holes are joined to their part by bridges.
 
-
-def components_of_mask(mask: NDArray[np.uint8]) -> list[Component]:
-    """The 8-connected pieces of a mask (height, width), from the topmost down."""
-    padded = np.pad((mask != 0).view(np.uint8), 1)
-    count, labels, boxes, _ = cv2.connectedComponentsWithStats(padded, connectivity=8)
-    components = []
-    for label in range(1, count):
-        left, top, width, height = (int(value) for value in boxes[label, :4])
-        piece = labels[top - 1 : top + height + 1, left - 1 : left + width + 1] == label
-        loops = sorted(crack_loops(piece), key=lambda loop: signed_area(loop.corners), reverse=True)
-        components.append(Component(mask=piece.view(np.uint8), corner=(left - 2, top - 2), loops=loops))
-    return components
+    Raises GeometryError for a mask of more than MOST_LOOPS pieces and holes, or with too long a rim.
+    """
+    mask = np.ascontiguousarray(mask, np.uint8)
+    x, y, width, height = cv2.boundingRect(mask)
+    loops = loops_of_mask(mask[y : y + height, x : x + width])
+    rows, columns = mask.shape
+    return _outline(loops, kept=np.ones(len(loops), bool), corner=(x, y), image=(columns, rows))
 
 
-def rim_of_mask(mask: NDArray[np.uint8]) -> Points:
+def outline_of_rle(rle: Any, *, left_out: Callable[[str], object] = lambda _what: None) -> Outline:
+    """The outline of an RLE as a file holds it.
+
+    As ``outline_of_mask``, but where there are more than MANY pieces and holes, those of fewer than SPECK
+    pixels, or SPECK_SHARE of the largest piece, are noise: ``left_out`` hears how many. Raises GeometryError
+    where it is not an RLE, covers no pixel or cannot be traced.
+    """
+    height, width, counts = checked_counts(rle)
+    cut, corner = cut_of_counts(height, counts)
+    loops = loops_of_mask(cut)
+    kept = np.ones(len(loops), bool)
+    if len(loops) > MANY:
+        areas = np.abs(loops.areas)
+        least = max(SPECK, SPECK_SHARE * areas.max())
+        kept = areas >= min(least, areas.max())
+    if specks := np.count_nonzero(~kept):
+        left_out(f"{specks} specks and holes of a few pixels were left out of its noisy mask.")
+    return _outline(loops, kept=kept, corner=corner, image=(width, height))
+
+
+def rim_of_mask(mask: Mask) -> Points:
     """(n, 2): the points half way between inner and outer pixels, without those of holes."""
-    rims = [piece.loops[0].midpoints + piece.corner for piece in components_of_mask(mask)]
+    loops = loops_of_mask(mask)
+    rims = [piece.outer.midpoints for piece in loops.pieces(loops.areas > 0)]
     return np.concatenate(rims) if rims else np.zeros((0, 2))
 
 
-def crack_loops(covered: NDArray[np.bool_]) -> list[Loop]:
-    """All closed crack chains of a mask (height, width) whose border rows and columns are False."""
-    nw, ne, sw, se = covered[:-1, :-1], covered[:-1, 1:], covered[1:, :-1], covered[1:, 1:]
-    # Lattice point (x, y) of the arrays below is (x + 1, y + 1) of the mask: the border has no cracks.
-    leaving = np.stack([se & ~ne, sw & ~se, nw & ~sw, ne & ~nw])
-    headings, rows, columns = np.nonzero(leaving)
-    ends = STEPS[headings] + np.stack([columns, rows], axis=1)
-    left, right = (headings - 1) % 4, (headings + 1) % 4
-    # Turning left where there is a choice joins pixels that touch at a corner into one component.
-    following = np.where(
-        leaving[left, ends[:, 1], ends[:, 0]],
-        left,
-        np.where(leaving[headings, ends[:, 1], ends[:, 0]], headings, right),
-    )
-    number = np.zeros(leaving.shape, np.int64)
-    number[leaving] = np.arange(len(headings))
-    successor = number[following, ends[:, 1], ends[:, 0]].tolist()
-    starts = np.stack([columns, rows], axis=1) + 1
-    return [Loop(starts=starts[chain], headings=headings[chain]) for chain in _cycles(successor)]
-
-
-def _cycles(successor: list[int]) -> list[list[int]]:
-    """The cycles of a permutation."""
-    seen = bytearray(len(successor))
-    cycles = []
-    for first in range(len(successor)):
-        if seen[first]:
-            continue
-        cycle, index = [], first
-        while not seen[index]:
-            seen[index] = 1
-            cycle.append(index)
-            index = successor[index]
-        cycles.append(cycle)
-    return cycles
-
-
-def knots_of_loop(midpoints: Points, *, tolerance: float) -> NDArray[np.int64]:
-    """Indices, ascending, of the midpoints (n, 2), at least 3, that a polygon within ``tolerance`` keeps."""
-    kept = cv2.approxPolyDP(midpoints.astype(np.float32), tolerance, closed=True).reshape(-1, 2)
-    if len(kept) < 3:
-        return np.arange(len(midpoints))
-    # Midpoints are multiples of a half and each occurs once, so they can be looked up as integers.
-    height = 4 * int(midpoints[:, 1].max()) + 4
-    keys = (midpoints * 2).astype(np.int64) @ (height, 1)
-    order = np.argsort(keys)
-    return np.sort(order[np.searchsorted(keys, (kept * 2).astype(np.int64) @ (height, 1), sorter=order)])
-
-
-def fit_polygon(midpoints: Points, knots: NDArray[np.int64]) -> Points:
-    """(k, 2) vertices of the closed polygon that runs closest, by least squares, to the midpoints (n, 2).
-
-    ``knots`` (k ≥ 3, ascending) are the midpoints where one edge ends and the next begins. The normal
-    equations of this piecewise linear fit are cyclic, tridiagonal and dominated by their diagonal, so
-    a few Jacobi rounds solve them.
-    """
-    rotated = np.concatenate((midpoints[knots[0] :], midpoints[: knots[0]]))
-    path = rotated[:, 0] + 1j * rotated[:, 1]
-    starts = knots - knots[0]
-    lengths = np.diff(starts, append=len(path))
-    late = (np.arange(len(path)) - np.repeat(starts, lengths)) / np.repeat(lengths, lengths)
-    early = 1 - late
-    coupling = np.add.reduceat(early * late, starts)
-    diagonal = np.add.reduceat(early**2, starts) + _before(np.add.reduceat(late**2, starts))
-    target = np.add.reduceat(early * path, starts) + _before(np.add.reduceat(late * path, starts))
-    vertices = path[starts]
-    for _ in range(SMOOTHING_ROUNDS):
-        vertices = (target - coupling * _after(vertices) - _before(coupling * vertices)) / diagonal
-    return np.stack([vertices.real, vertices.imag], axis=1)
-
-
-def _before(values: NDArray[Any]) -> NDArray[Any]:
-    """Each one's predecessor round the loop (``np.roll`` takes longer than the sums here)."""
-    return np.concatenate((values[-1:], values[:-1]))
-
-
-def _after(values: NDArray[Any]) -> NDArray[Any]:
-    return np.concatenate((values[1:], values[:1]))
-
-
-def join_holes(outer: Points, holes: list[Points]) -> Points:
-    """One closed polygon (n, 2) of an outer polygon and its holes, each reached over its shortest bridge.
-
-    The nearest hole is joined first: a shortest bridge crosses nothing, since whatever it crossed would
-    be nearer.
-    """
-    joined, waiting = outer, list(holes)
-    while waiting:
-        bridges = [_shortest_bridge(joined, hole) for hole in waiting]
-        nearest = min(range(len(waiting)), key=lambda i: bridges[i][0])
-        del waiting[nearest]
-        _, joined, at_joined, hole, at_hole = bridges[nearest]
-        joined = np.concatenate(
-            [
-                joined[: at_joined + 1],
-                np.roll(hole, -at_hole, axis=0),
-                hole[at_hole : at_hole + 1],
-                joined[at_joined:],
-            ]
+def _outline(
+    loops: Loops, *, kept: NDArray[np.bool_], corner: tuple[int, int], image: tuple[int, int]
+) -> Outline:
+    """Of a part of a mask; ``corner``: x, y of its first pixel; ``image``: width and height of the whole."""
+    if (count := np.count_nonzero(kept)) > MOST_LOOPS:
+        raise GeometryError(
+            f"The mask has {count} pieces and holes, more than {MOST_LOOPS}; fill and remove the small ones."
         )
-    return joined
+    pieces = loops.pieces(kept)
+    if sum(np.ptp(piece.outer.starts, axis=0).prod() for piece in pieces) > MOST_BOXED:
+        raise GeometryError("The mask's pieces lie one around the other; give each a mask of its own.")
+    return [_part_of_piece(piece, corner=np.array(corner), image=np.array(image)) for piece in pieces]
 
 
-def _shortest_bridge(first: Points, second: Points) -> tuple[float, Points, int, Points, int]:
-    """Distance, both polygons with a vertex at either end of the bridge, and the index of that vertex.
-
-    Two polygons that do not cross are nearest where one of them has a vertex.
-    """
-    there, edge_there, foot_there, vertex_here = _nearest_on_edges(second, first)
-    back, edge_back, foot_back, vertex_there = _nearest_on_edges(first, second)
-    if there <= back:
-        second, at_second = _with_vertex(second, edge_there, foot_there)
-        return there, first, vertex_here, second, at_second
-    first, at_first = _with_vertex(first, edge_back, foot_back)
-    return back, first, at_first, second, vertex_there
-
-
-def _nearest_on_edges(polygon: Points, points: Points) -> tuple[float, int, Points, int]:
-    """The least distance of a point from the polygon; the edge, the foot on it, and the point's index."""
-    along = np.roll(polygon, -1, axis=0) - polygon
-    square = np.maximum((along**2).sum(axis=1), 1e-12)
-    offset = points[:, None, :] - polygon[None, :, :]
-    share = np.clip((offset * along).sum(axis=2) / square, 0.0, 1.0)
-    feet = polygon + share[:, :, None] * along
-    distance = np.hypot(*np.moveaxis(points[:, None, :] - feet, 2, 0))
-    point, edge = np.unravel_index(int(distance.argmin()), distance.shape)
-    return float(distance[point, edge]), int(edge), feet[point, edge], int(point)
+def _part_of_piece(piece: Piece, *, corner: NDArray[np.int64], image: NDArray[np.int64]) -> list[float]:
+    """In a box of its own, one pixel wider on every side, whose first pixel is ``offset`` in the image."""
+    low, high = piece.outer.starts.min(axis=0) - 1, piece.outer.starts.max(axis=0) + 1
+    offset = low + corner
+    loops = [loop.moved(-low) for loop in (piece.outer, *piece.holes)]
+    by_pixels = _joined([loop.corners for loop in loops])
+    wanted = _mask_of_points(by_pixels, high - low)
+    midpoints = [loop.midpoints for loop in loops]
+    knots = [knots_of_loop(points, tolerance=TOLERANCE) for points in midpoints]
+    for _ in range(ROUNDS if np.count_nonzero(wanted) > SMALL else 0):
+        fits = [
+            fit_polygon(*pair).clip(-offset, image - offset) for pair in zip(midpoints, knots, strict=True)
+        ]
+        points = np.round(_joined(fits) * GRID) / GRID
+        wrong = _mask_of_points(points, high - low) != wanted
+        if not wrong.any():
+            return part_of_points(without_repeats(np.round(points + offset, 2)))
+        knots = [_more_knots(*pair, wrong) for pair in zip(loops, knots, strict=True)]
+    return part_of_points(without_repeats(by_pixels + offset))
 
 
-def _with_vertex(polygon: Points, edge: int, point: Points) -> tuple[Points, int]:
-    """The polygon with ``point`` as a vertex on ``edge``, and that vertex's index."""
-    end = (edge + 1) % len(polygon)
-    for index in (edge, end):
-        if np.array_equal(polygon[index], point):
-            return polygon, index
-    return np.insert(polygon, edge + 1, point, axis=0), edge + 1
+def _joined(polygons: list[Points]) -> Points:
+    """The outer polygon, the first, with its holes."""
+    return join_holes(polygons[0], polygons[1:])
+
+
+def _mask_of_points(points: Points, size: NDArray[np.int64]) -> Mask:
+    width, height = size.tolist()
+    return mask_of_outline([part_of_points(points)], height=height, width=width)
+
+
+def _more_knots(loop: Loop, knots: NDArray[np.int64], wrong: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """The knots, and the cracks beside every pixel that came out wrong, with a neighbour on either side."""
+    (inner_x, inner_y), (outer_x, outer_y) = loop.inside.T, loop.outside.T
+    beside = wrong[inner_y, inner_x] | wrong[outer_y, outer_x]
+    return np.union1d(knots, np.flatnonzero(beside | np.roll(beside, 1) | np.roll(beside, -1)))

@@ -13,7 +13,13 @@ from numpy.typing import NDArray
 from fairyring.model.geometry.shapes import GeometryError
 
 MAX_PIXELS = 1 << 30
-"""No mask larger than this is decoded: a size in a file costs nothing to write."""
+"""Of the image an RLE says it is of: a size in a file costs nothing to write."""
+MOST_BOXED = 1 << 25
+"""Pixels of the box around what is covered; nothing larger is decoded."""
+MOST_COUNTS = 500_000
+"""A mask of more is noise."""
+MOST_TEXT = 4 * MOST_COUNTS
+"""Characters of compressed counts; a run of usual length takes one or two."""
 MAX_SHIFT = 60
 """Bits of one count, far more than any image needs."""
 
@@ -32,6 +38,9 @@ def checked_counts(rle: Any) -> tuple[int, int, list[int]]:
     if height * width > MAX_PIXELS:
         raise GeometryError(f"An RLE of {width} × {height} pixels is larger than any mask may be.")
     counts = rle["counts"]
+    most = MOST_COUNTS if isinstance(counts, list) else MOST_TEXT
+    if isinstance(counts, str | bytes | list) and len(counts) > most:
+        raise GeometryError(f"The RLE has more than {MOST_COUNTS} counts; smooth the mask.")
     if isinstance(counts, str | bytes):
         counts = _counts_of_text(counts)
     if not isinstance(counts, list) or any(type(count) is not int or count < 0 for count in counts):
@@ -44,21 +53,45 @@ def checked_counts(rle: Any) -> tuple[int, int, list[int]]:
 def cut_of_counts(height: int, counts: list[int]) -> tuple[NDArray[np.uint8], tuple[int, int]]:
     """The smallest box around all covered pixels, as a mask, and the x, y of its first pixel in the image.
 
-    Decoding just that takes a small part of the time that the whole image does. GeometryError where no pixel
-    is covered.
+    Nothing outside that box is decoded. GeometryError where no pixel is covered, or the box holds more than
+    MOST_BOXED.
     """
     ends = np.cumsum(counts)
-    lit = np.flatnonzero(counts[1::2]) * 2 + 1
-    if not len(lit):
+    starts, ends = ends[0::2][: len(counts) // 2], ends[1::2]
+    lit = ends > starts
+    if not lit.any():
         raise GeometryError("The RLE covers no pixel.")
-    first, last = int(ends[lit[0] - 1]) // height, (int(ends[lit[-1]]) - 1) // height
-    low, high = first * height, (last + 1) * height
-    lengths = np.diff(ends.clip(low, high), prepend=low)
-    covered = np.arange(len(counts)) % 2 == 1
-    columns = np.repeat(covered, lengths).reshape(-1, height)
-    rows = np.flatnonzero(columns.any(axis=0))
-    cut = columns[:, rows[0] : rows[-1] + 1].T
-    return np.ascontiguousarray(cut, np.uint8), (first, int(rows[0]))
+    column, top, bottom = _within_columns(starts[lit], ends[lit], height)
+    left, right = int(column[0]), int(column[-1]) + 1
+    first, last = int(top.min()), int(bottom.max())
+    if (right - left) * (last - first) > MOST_BOXED:
+        raise GeometryError(
+            f"The mask spans {right - left} × {last - first} pixels, more than any cap; scale the photo down."
+        )
+    # One up where a stretch begins and one down behind its end: their sums are the mask.
+    changes = np.zeros((right - left, last - first + 1), np.int8)
+    np.add.at(changes, (column - left, top - first), 1)
+    np.add.at(changes, (column - left, bottom - first), -1)
+    cut = np.cumsum(changes, axis=1, dtype=np.int8)[:, :-1]
+    return np.ascontiguousarray(cut.T).view(np.uint8), (left, first)
+
+
+def _within_columns(
+    starts: NDArray[np.int64], ends: NDArray[np.int64], height: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Stretches, from ``starts`` to before ``ends``, cut where they go on in the next column.
+
+    Column, first row and row behind the last of each, column by column.
+    """
+    first, last = starts // height, (ends - 1) // height
+    pieces = last - first + 1
+    if pieces.sum() > MOST_COUNTS:
+        raise GeometryError(f"The RLE has more than {MOST_COUNTS} counts; smooth the mask.")
+    nth = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    column = np.repeat(first, pieces) + nth
+    top = np.where(nth == 0, np.repeat(starts % height, pieces), 0)
+    bottom = np.where(column == np.repeat(last, pieces), np.repeat((ends - 1) % height + 1, pieces), height)
+    return column, top, bottom
 
 
 def _counts_of_text(text: str | bytes) -> list[int]:

@@ -9,7 +9,8 @@ import numpy as np
 from contourpy import FillType, contour_generator
 from numpy.typing import NDArray
 
-from fairyring.model.geometry.mask_tracing import fit_polygon, join_holes
+from fairyring.model.geometry.bridges import join_holes
+from fairyring.model.geometry.polygon_fit import fit_polygon
 from fairyring.model.geometry.shapes import Outline, Points, part_of_points, signed_area
 from fairyring.model.predict.overlaps import LEAST_PART
 

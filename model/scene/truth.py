@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fairyring.model.contour.ellipse import least_squares_ellipse
-from fairyring.model.geometry.raster import outline_of_mask
+from fairyring.model.geometry.mask_tracing import outline_of_mask
 from fairyring.model.geometry.shapes import Ellipse, Outline, part_of_points, points_of_part
 from fairyring.model.scene.caps import Box, Cap, polygon_of_cap
 from fairyring.model.scene.layers import Owners, Seen, window

@@ -23,7 +23,8 @@ from collections import Counter
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from fairyring.model.geometry.raster import check_rle, outline_of_rle
+from fairyring.model.geometry.mask_tracing import outline_of_rle
+from fairyring.model.geometry.raster import check_rle
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, canonical_ellipse
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.cap_validity import MAX_NAME, MAX_ORDER

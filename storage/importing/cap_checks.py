@@ -11,8 +11,8 @@ import msgspec
 from msgspec import structs
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.raster import check_mark, check_outline
-from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, area_of_outline, polygon_of_shape
+from fairyring.model.geometry.outline_checks import check_mark
+from fairyring.model.geometry.shapes import Circle, Ellipse, area_of_outline, polygon_of_shape
 from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, Problem
@@ -46,7 +46,8 @@ def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     cap = found.cap
     if cap.visible == [] and cap.mark is None and (shape := _checked_shape(found.whole, photo)):
         cap = structs.replace(cap, visible=[polygon_of_shape(shape)])
-    cap, remarks = _checked(cap, photo)
+    remarks: list[str] = []
+    cap = check_cap(cap, width=photo.width, height=photo.height, left_out=remarks.append)
     if found.marked and cap.mark is None and found.centre is not None:
         cap = structs.replace(cap, mark=_mark_around(found.centre, cap.visible))
     mark = cap.mark
@@ -72,25 +73,6 @@ def content_number(cap: Cap, *, photo: Photo) -> str:
     """The same outline and mark in the same photo always get the same number."""
     content = msgspec.json.encode((photo.file_name, photo.sha256, cap.visible, cap.mark))
     return blake2b(content, digest_size=16).hexdigest()
-
-
-def _checked(cap: Cap, photo: Photo) -> tuple[Cap, list[str]]:
-    """Where only some parts of an outline are bad, the others are kept and the bad ones named."""
-    try:
-        return check_cap(cap, width=photo.width, height=photo.height), []
-    except GeometryError:
-        if not isinstance(cap.visible, list) or len(cap.visible) < 2:
-            raise
-    good: Outline = []
-    left_out: list[str] = []
-    for index, part in enumerate(cap.visible):
-        try:
-            good += check_outline([part], width=photo.width, height=photo.height)
-        except GeometryError as error:
-            left_out.append(f"Part {index + 1} was left out: {error}")
-    if not good:
-        raise GeometryError(left_out[0])
-    return check_cap(structs.replace(cap, visible=good), width=photo.width, height=photo.height), left_out
 
 
 def _checked_shape(shape: Shape | None, photo: Photo) -> Shape | None:

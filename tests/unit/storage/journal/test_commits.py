@@ -1,9 +1,13 @@
 """What becomes of an accepted edit: stored once, as a whole, and counted."""
 
-from pycocotools import mask
+import threading
+
+import pytest
 from sqlalchemy import text
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
+from fairyring.storage import journal
+from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.contents import load_annotations, load_version
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
@@ -87,15 +91,14 @@ def test_rejecting_a_prediction_is_made_and_deleted_in_one_set(beds, cap):
     assert outcomes[1].annotation.deleted
 
 
-def test_a_self_crossing_outline_is_stored_repaired_and_covers_the_same_pixels(beds):
+def test_a_self_crossing_outline_is_stored_as_the_two_triangles_it_covers(beds):
     crossing = [[10.0, 10.0, 40.0, 40.0, 40.0, 10.0, 10.0, 45.0]]
     stored = one(beds, cap=Cap(visible=crossing)).annotation.cap.visible
-    assert stored != crossing
 
-    def covered(outline):
-        return mask.decode(mask.merge(mask.frPyObjects(outline, 80, 100)))
-
-    assert (covered(stored) == covered(crossing)).all()
+    middle = (10 * 6 + 40 * 7) / 13
+    triangles = [[(10, 10), (10, 45), (middle, middle)], [(middle, middle), (40, 10), (40, 40)]]
+    corners = sorted(sorted(zip(part[::2], part[1::2], strict=True)) for part in stored)
+    assert corners == [[pytest.approx(corner) for corner in triangle] for triangle in triangles]
 
 
 def test_the_counters_of_the_image_follow(beds, cap):
@@ -118,3 +121,15 @@ def test_the_counters_of_the_image_follow(beds, cap):
         assert counts == wanted
         assert later > version
         version = later
+
+
+def test_caps_are_checked_before_the_transaction_that_everybody_waits_for(beds, cap, monkeypatch):
+    threads = []
+
+    def check(*args, **kwargs):
+        threads.append(threading.current_thread().name)
+        return check_cap(*args, **kwargs)
+
+    monkeypatch.setattr(journal, "check_cap", check)
+    assert isinstance(one(beds, cap=cap), Accepted)
+    assert threads == [threading.current_thread().name]

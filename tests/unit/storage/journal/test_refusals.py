@@ -24,7 +24,7 @@ from tests.unit.storage.conftest import TRIANGLE
         ({"cap": Cap(visible=[[0.0, 0.0, 9e6, 0.0, 5.0, 5.0]])}, "far outside"),
         ({"cap": Cap(visible=[], mark=Circle(10, 10, -1))}, "radius"),
         ({"cap": Cap(visible=[], mark=Circle(10, math.nan, 1))}, "finite"),
-        ({"cap": Cap(visible=TRIANGLE * 501)}, "at most 500 parts"),
+        ({"cap": Cap(visible=TRIANGLE * 501)}, "501 parts; 500 are allowed"),
         ({"cap": Cap(visible=TRIANGLE, category="stone")}, "no category"),
         ({"cap": Cap(visible=TRIANGLE, prediction=7)}, "prediction"),
         ({"cap": Cap(visible=TRIANGLE, prediction=10**30)}, "prediction"),
