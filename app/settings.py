@@ -28,6 +28,8 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     host: str = "127.0.0.1"
     port: int = 8080
+    token: bool = True
+    """Whether only browsers are let in that open the address which the server printed."""
     photo_cache_mb: int = 1024
     """Photos converted for the browser that are kept in the project's cache folder."""
     message_limit_mb: int = 16

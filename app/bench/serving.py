@@ -39,7 +39,8 @@ class Server:
     def start(self) -> None:
         """Starts it and waits until it answers; ConnectionError if it does not."""
         command = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
-        self.process = subprocess.Popen([*command, "serve", str(self.project), "--port", str(self.port)])
+        serve = ["serve", str(self.project), "--port", str(self.port), "--no-token"]
+        self.process = subprocess.Popen([*command, *serve])
         deadline = time.monotonic() + START_S
         while not self._answers():
             if self.process.poll() is not None or time.monotonic() > deadline:

@@ -34,7 +34,8 @@ def demo(
     if not is_there:
         _make(folder, count=count, seed=seed)
     if serve:
-        open_for_people(folder, port=port)
+        # Rendered beds are nobody's secret, and a newcomer's first address should be a short one.
+        open_for_people(folder, port=port, token=False)
     elif is_there:
         typer.echo(f"{folder} is there already; delete the folder to start afresh.", err=True)
     else:

@@ -18,23 +18,32 @@ def serve(
     *,
     host: Annotated[str | None, typer.Option(help="Address to listen on: 127.0.0.1.")] = None,
     port: Port = None,
+    token: Annotated[
+        bool | None,
+        typer.Option("--token/--no-token", help="Let in only who opens the printed address, once: --token."),
+    ] = None,
     config: Annotated[Path | None, typer.Option(help="TOML file; else the project's own.")] = None,
 ) -> None:
     """Open a project in the browser, until Ctrl+C.
 
     Example: `fairyring serve beds --port 8080`
     """
-    open_for_people(folder, host=host, port=port, config=config)
+    open_for_people(folder, host=host, port=port, token=token, config=config)
 
 
 def open_for_people(
-    folder: Path, *, host: str | None = None, port: int | None = None, config: Path | None = None
+    folder: Path,
+    *,
+    host: str | None = None,
+    port: int | None = None,
+    token: bool | None = None,
+    config: Path | None = None,
 ) -> None:
     """Serves a project until Ctrl+C or SIGTERM, and shows its address from when it answers on."""
     from fairyring.app.gateway.server import serve as run
     from fairyring.app.settings import load_settings
 
-    settings = load_settings(folder, file=config, host=host, port=port)
+    settings = load_settings(folder, file=config, host=host, port=port, token=token)
     with last_line() as show:
         run(
             folder,

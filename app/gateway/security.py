@@ -68,7 +68,7 @@ class Guard:
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": refusal})
         else:
-            await PlainTextResponse(refusal, status_code=403)(scope, receive, send)
+            await PlainTextResponse(refusal, status_code=403)(scope, receive, _with_security_headers(send))
 
 
 def _refusal(scope: Scope) -> str | None:

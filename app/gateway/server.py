@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import logging
 import socket
-import webbrowser
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from functools import partial
@@ -21,6 +20,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from fairyring.app.addresses import DOWNLOADS, PHOTOS
+from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
 from fairyring.app.gateway.downloads import downloads_of
 from fairyring.app.gateway.hidden_viser import Upstream, start_viser, stop_viser
 from fairyring.app.gateway.login import name_page
@@ -50,12 +50,12 @@ def serve(
     project_folder: Path,
     *,
     settings: Settings | None = None,
-    open_browser: bool = False,
-    ready: Callable[[str], None] | None = None,
+    ready: Callable[[str], object] = lambda _address: None,
 ) -> None:
     """Serves a project until SIGINT or SIGTERM, then closes everything.
 
-    ``ready`` is called with the address once the server answers. Raises ServerError for an address that may
+    ``ready`` is called with the address once the server answers, and again whenever it has led a browser in
+    and another one does from then on. Raises ServerError for an address that may
     not be listened on or a port that is taken, and whatever open_project raises; before anything is started.
     """
     settings = settings or load_settings(project_folder)
@@ -63,20 +63,22 @@ def serve(
     with contextlib.closing(_listen(settings)) as listening, open_project(project_folder) as project:
         workspace = Workspace(project, settings)
         address = f"http://{_shown_host(settings.host)}:{listening.getsockname()[1]}"
+        door = door_of(project.folder / "cache", project_id=project.id) if settings.token else None
 
         def announce() -> None:
-            log.info("%s is served at %s", project.name, address)
-            if ready is not None:
-                ready(address)
-            if open_browser:
-                webbrowser.open(address)
+            ready(f"{address}/?token={door.token}" if door else address)
 
-        server = _Server(configure(make_app(workspace), settings), announce)
+        if door is not None:
+            door.used = announce
+        server = _Server(configure(make_app(workspace, door=door), settings), announce)
         server.run(sockets=[listening])
 
 
-def make_app(workspace: Workspace) -> Starlette:
-    """The ASGI application of a project; starts viser with its lifespan and stops it with it."""
+def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
+    """The ASGI application of a project; starts viser with its lifespan and stops it with it.
+
+    ``door`` None lets every browser on this machine in.
+    """
     upstream = Upstream()
 
     @asynccontextmanager
@@ -101,7 +103,7 @@ def make_app(workspace: Workspace) -> Starlette:
             Route("/healthz", _healthz),
             Mount("/static", EditorFiles()),
         ],
-        middleware=[Middleware(Guard)],
+        middleware=[Middleware(Guard), *([Middleware(OnlyWithPass, door)] if door else [])],
         lifespan=lifespan,
     )
 

@@ -20,6 +20,7 @@ import zstandard
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
+from fairyring.app.gateway.access import COMING_BACK
 from fairyring.app.gateway.login import ask_for_name, name_of
 from fairyring.model.errors import FairyringError
 
@@ -31,7 +32,6 @@ HEAD = """
     <link rel="stylesheet" href="/static/overview.css">
     <script type="module" src="/static/editor/main.js"></script>
   </head>"""
-COMING_BACK = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>Fairyring</title>'
 
 _DIGITS = "!#$%()*+,-./0123456789:;=?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_abcdefghijklmnopqrstuvwxyz{|}~"
 _BOOTSTRAP = re.compile(

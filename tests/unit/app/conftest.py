@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import uvicorn
 
+from fairyring.app.gateway.access import Door
 from fairyring.app.gateway.server import configure, make_app
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings
@@ -86,11 +87,11 @@ def shared_port(made_once: Path, tmp_path_factory: pytest.TempPathFactory) -> It
 
 
 @contextmanager
-def served(project: Project, **settings: object) -> Iterator[int]:
+def served(project: Project, *, door: Door | None = None, **settings: object) -> Iterator[int]:
     """A real server in a thread."""
     listening = socket.create_server(("127.0.0.1", 0))
     given = Settings(**settings)
-    server = uvicorn.Server(configure(make_app(Workspace(project, given)), given))
+    server = uvicorn.Server(configure(make_app(Workspace(project, given), door=door), given))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
     thread.start()
     until(lambda: server.started, "the server")
