@@ -56,7 +56,7 @@ class Truth:
     height: int
 
 
-def run(*, quick: bool = False, real: Path | None = None) -> list[Row]:
+def contour_rows(*, quick: bool = False, real: Path | None = None) -> list[Row]:
     """One row a set of masks and method.
 
     Also of ``real``, a COCO file of checked photos or its folder, there by how much of the caps is in sight.

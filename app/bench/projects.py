@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 from msgspec import Struct
 
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import Project, create_project
 
 

@@ -58,7 +58,7 @@ REAL: dict[str, tuple[float, float]] = {
 """Least and greatest figure of the two photos, as ``measure`` makes them."""
 
 
-def run(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
+def scene_rows(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
     """Rows of figure, rendered, real, allowed, ok."""
     ranges = _measure_folder(real) if real else REAL
     beds = 2 if quick else 12

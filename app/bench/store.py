@@ -25,13 +25,13 @@ from fairyring.app.caps.whole_outlines import derive_edits
 from fairyring.storage.contents import load_contents
 from fairyring.storage.folder import DATABASE
 from fairyring.storage.images import ImageFilter, list_images
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import commit
 from fairyring.storage.project import Project, create_project
 from fairyring.storage.records import Cap, Edit, ImageContents
 
 
-def run(*, quick: bool = False) -> list[Row]:
+def store_rows(*, quick: bool = False) -> list[Row]:
     """The table: import, list, open, edit, leaf through. Writes to a temporary folder (about 1.5 GB)."""
     count, leafed = (100, 3) if quick else (10_000, 100)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:

@@ -34,9 +34,9 @@ def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
     Example: `fairyring bench store --json`
     """
     with driving_a_browser():
-        from fairyring.app.bench import store as bench
+        from fairyring.app.bench.store import store_rows
 
-    print_rows("store", bench.run(quick=quick), as_json=as_json)
+    print_rows("store", store_rows(quick=quick), as_json=as_json)
 
 
 @commands.command()
@@ -46,9 +46,9 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
     Example: `fairyring bench editor --json`
     """
     with driving_a_browser():
-        from fairyring.app.bench.browser import editor as bench
+        from fairyring.app.bench.browser.editor import editor_rows
 
-    print_rows("editor", bench.run(quick=quick), as_json=as_json)
+    print_rows("editor", editor_rows(quick=quick), as_json=as_json)
 
 
 @commands.command()
@@ -67,12 +67,12 @@ def scene(
 
     Example: `fairyring bench scene --real photos --sheet sheet.png`
     """
-    from fairyring.app.bench import scene as bench
+    from fairyring.app.bench.scene import scene_rows
     from fairyring.app.bench.sheet import draw_sheet
 
     if sheet is not None:
         draw_sheet(sheet, real=real)
-    print_rows("scene", bench.run(quick=quick, real=real), as_json=as_json)
+    print_rows("scene", scene_rows(quick=quick, real=real), as_json=as_json)
 
 
 @commands.command()
@@ -94,14 +94,14 @@ def contour(
 
     Example: `fairyring bench contour --real beds --pictures worst --method map --json`
     """
-    from fairyring.app.bench import contour as bench
+    from fairyring.app.bench.contour import contour_rows
     from fairyring.app.bench.worst import draw_worst
 
     if pictures is not None and real is None:
         raise typer.BadParameter("--pictures are of real photos: give their folder with --real.")
     if pictures is not None and real is not None:
         draw_worst(real, pictures, methods=[each.value for each in method or [MethodName.map]])
-    print_rows("contour", bench.run(quick=quick, real=real), as_json=as_json)
+    print_rows("contour", contour_rows(quick=quick, real=real), as_json=as_json)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from fairyring.model.light_and_form import FORMS, LightSource
 from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only
 
 if TYPE_CHECKING:
-    from fairyring.storage.importing.run import ImportReport
+    from fairyring.storage.importing.paths import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
 
@@ -53,7 +53,7 @@ def import_(
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
     from fairyring.app.caps.whole_outlines import fill_in
-    from fairyring.storage.importing.run import import_paths
+    from fairyring.storage.importing.paths import import_paths
     from fairyring.storage.project import open_project
 
     if form is not None and form not in FORMS:

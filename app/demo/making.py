@@ -17,7 +17,7 @@ from fairyring.model.scene.settings import SceneError
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import is_project
 from fairyring.storage.images import ImageFilter, list_ids
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import Project, create_project, open_project
 
 

@@ -72,7 +72,7 @@ class Jobs:
         self._jobs: list[Job] = []
         self._tasks: set[asyncio.Task[None]] = set()
         self._ids = itertools.count(1)
-        self._places = anyio.CapacityLimiter(at_once)
+        self._slots = anyio.CapacityLimiter(at_once)
 
     def __iter__(self) -> Iterator[Job]:
         return iter(tuple(self._jobs))
@@ -89,7 +89,7 @@ class Jobs:
         job = Job(id=next(self._ids), title=title, user=user)
         ended = [old for old in self._jobs if old.state != "running"]
         self._jobs = [job, *(old for old in self._jobs if old not in ended[KEPT - 1 :])]
-        task = asyncio.create_task(self._run(job, work, finished))
+        task = asyncio.create_task(self._carry_out(job, work, finished))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return job
@@ -104,11 +104,11 @@ class Jobs:
             job.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
-    async def _run(
+    async def _carry_out(
         self, job: Job, work: Callable[[Progress], Result], finished: Callable[[Job], None]
     ) -> None:
         try:
-            result = await anyio.to_thread.run_sync(work, job.report, limiter=self._places)
+            result = await anyio.to_thread.run_sync(work, job.report, limiter=self._slots)
             job.state, job.message, job.link = "done", result.message, result.link
         except CancelledError:
             job.state, job.message = "cancelled", "Cancelled; what was done so far is kept."

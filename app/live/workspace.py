@@ -76,11 +76,11 @@ class Workspace:
     async def read(self, query: Callable[[Connection], Found]) -> Found:
         """Runs a query in a thread, so that the event loop never waits for the disk."""
 
-        def run() -> Found:
+        def in_thread() -> Found:
             with self.project.read() as connection:
                 return query(connection)
 
-        return await anyio.to_thread.run_sync(run)
+        return await anyio.to_thread.run_sync(in_thread)
 
     async def write(self, work: Callable[[Connection], Found]) -> Found:
         """Runs a transaction; it is on disk when this returns."""

@@ -15,7 +15,7 @@ from fairyring.model.errors import FairyringError
 log = logging.getLogger(__name__)
 
 UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
-SETTLES_S = 0.1
+REDRAW_AFTER_S = 0.1
 """What happens in quick succession is drawn once, and after the editor has drawn what it was sent."""
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
@@ -62,7 +62,7 @@ class Redrawing:
 
     async def _draw(self) -> None:
         try:
-            await asyncio.sleep(SETTLES_S)
+            await asyncio.sleep(REDRAW_AFTER_S)
             while self._wanted:
                 part = next(name for name in self._parts if name in self._wanted)
                 self._wanted.discard(part)

@@ -82,7 +82,7 @@ class Staging:
     def __init__(self, images: Path) -> None:
         self._images = images
         self._folder = images / f"{INCOMING}-{uuid4().hex}"
-        self._placed: list[Path] = []
+        self._moved_in: list[Path] = []
 
     def copy(self, photo: Photo) -> None:
         """Copies a new photo into the passing folder and onto the disk; one that lies in ``images/`` stays.
@@ -102,21 +102,21 @@ class Staging:
         except OSError as error:
             raise StoreError(f"{source} cannot be copied into the project: {error.strerror}.") from error
 
-    def place(self) -> None:
+    def move_in(self) -> None:
         """Gives all copies their names in ``images/``; done just before the rows are committed."""
         if not self._folder.exists():
             return
         for copy in sorted(self._folder.iterdir()):
             target = self._images / copy.name
             copy.replace(target)
-            self._placed.append(target)
+            self._moved_in.append(target)
         _sync(self._images)
 
     def undo(self) -> None:
-        """Removes what was placed: its rows were not committed."""
-        for target in self._placed:
+        """Removes what was moved in: its rows were not committed."""
+        for target in self._moved_in:
             target.unlink(missing_ok=True)
-        self._placed.clear()
+        self._moved_in.clear()
 
     def clear(self) -> None:
         """Removes the passing folder."""

@@ -15,7 +15,7 @@ from fairyring.app.bench.serving import Server, served
 from fairyring.app.cli import app
 from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_ids
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
 from tests.support.sighted import write_weights
 

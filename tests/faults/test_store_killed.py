@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from fairyring.storage.contents import load_annotations
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import history
 from fairyring.storage.project import create_project, open_project
 

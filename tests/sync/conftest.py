@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
 from tests.support.browser_side import BrowserSide
 from tests.support.two_sides import TwoSides

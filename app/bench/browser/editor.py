@@ -34,7 +34,7 @@ CROWDS = {
 """A bed of as many shapes × vertices, and the target from event to drawn in ms."""
 
 
-def run(*, quick: bool = False) -> list[Row]:
+def editor_rows(*, quick: bool = False) -> list[Row]:
     """The table: pointer to drawn, release to saved, move to fit, image to image."""
     moves, edits, switches = (10, 2, 1) if quick else (200, 50, 12)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as name, chromium() as browser:

@@ -18,7 +18,7 @@ from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.contour.reconstruct import reconstruct
 from fairyring.model.predict.predictor import Detection, Predictor
 from fairyring.storage.images import find_image
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import Project, create_project
 

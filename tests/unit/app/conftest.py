@@ -18,7 +18,7 @@ from fairyring.app.gateway.access import Door
 from fairyring.app.gateway.server import configure, make_app
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import Project, create_project, open_project
 from tests.support.tab import until

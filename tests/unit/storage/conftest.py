@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import pytest
 
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
 
 SQUARE = [[10.0, 10.0, 30.0, 10.0, 30.0, 30.0, 10.0, 30.0]]

@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from fairyring.app.bench.contour import measured_by_coverage, run
+from fairyring.app.bench.contour import contour_rows, measured_by_coverage
 from fairyring.app.commands import contour, evaluate
 from fairyring.app.commands.files import FileError
 from fairyring.model.geometry.shapes import Circle, polygon_of_shape
@@ -81,7 +81,7 @@ def test_priors_from_too_few_caps_are_refused_with_the_files_name(masks: Path, t
 
 
 def test_the_benchmark_finds_map_the_best_of_the_methods():
-    rows = run(quick=True)
+    rows = contour_rows(quick=True)
     assert {row["method"] for row in rows} == {"map", "paper", "literal", "ellipse", "enclosing"}
     for masks in {row["masks"] for row in rows}:
         ranked = sorted((row for row in rows if row["masks"] == masks), key=lambda row: row["cdr_mean"])

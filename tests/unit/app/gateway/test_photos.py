@@ -18,7 +18,7 @@ from fairyring.app.gateway import photos
 from fairyring.app.gateway.photos import is_directly_showable
 from fairyring.storage.db.schema import image as image_table
 from fairyring.storage.images import find_image
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import Project
 
 ADA = {"Cookie": "fairyring_name=Ada"}

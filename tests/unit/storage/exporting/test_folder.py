@@ -9,7 +9,7 @@ from PIL import Image
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.exporting import export_coco
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap
 from tests.support.exported import SQUARE, export, store

@@ -11,8 +11,8 @@ from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_writing import annotation_entry
 from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.importing.photos import Photo
-from fairyring.storage.importing.run import import_paths
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Annotation, Cap, Edit

@@ -6,7 +6,7 @@ import pytest
 
 from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.images import ImageFilter, list_images
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import annotations_of, reasons
 from tests.unit.storage.conftest import TRIANGLE
 

@@ -7,7 +7,7 @@ import pytest
 
 from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.errors import StoreError
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import annotations_of
 
 

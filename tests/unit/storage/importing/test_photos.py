@@ -7,7 +7,7 @@ from PIL import Image
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import files_of, reasons
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from fairyring.model.geometry.shapes import Ellipse
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_run
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from tests.unit.storage.conftest import TRIANGLE
 
 

@@ -6,7 +6,7 @@ from concurrent.futures import CancelledError
 import pytest
 
 from fairyring.storage.errors import StoreError
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import Derived, commit, history
 from fairyring.storage.records import Cap, Edit
 from tests.support.imported import annotations_of, files_of, rows_of

@@ -4,7 +4,7 @@ import pytest
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.records import Cap
 from tests.support.imported import annotations_of, reasons
 from tests.unit.storage.conftest import TRIANGLE

@@ -156,7 +156,7 @@ def _store(
     elif labelled:
         run = _run_of(connection, sources)
         predictions = enter_predictions(connection, labelled, categories=categories, run_id=run.id)
-    copies.place()
+    copies.move_in()
     return ImportReport(
         images=len(new),
         images_known=len(intake.seen) - len(new),
