@@ -40,20 +40,20 @@ def test_an_import_that_is_cancelled_changes_nothing(project, tmp_path, write_co
     assert import_paths(project, [file]).annotations == 1
 
 
-def test_photos_placed_before_a_commit_that_fails_are_removed(project, tmp_path, write_photo, monkeypatch):
-    from fairyring.storage.importing import photos as placing
+def test_photos_moved_in_before_a_commit_that_fails_are_removed(project, tmp_path, write_photo, monkeypatch):
+    from fairyring.storage.importing import photos as staged
 
     def fail(_path):
         raise OSError(28, "No space left on device")
 
     photo = write_photo(tmp_path / "bed.png")
-    place = placing.Staging.place
+    move_in = staged.Staging.move_in
 
-    def place_and_fail(self):
-        place(self)
+    def move_in_and_fail(self):
+        move_in(self)
         fail(None)
 
-    monkeypatch.setattr(placing.Staging, "place", place_and_fail)
+    monkeypatch.setattr(staged.Staging, "move_in", move_in_and_fail)
     before = rows_of(project)
     with pytest.raises(OSError, match="No space left"):
         import_paths(project, [photo])
