@@ -50,6 +50,12 @@ def load_annotations(connection: Connection, image_id: int) -> list[Annotation]:
     return [annotation_of(row) for row in connection.execute(statement)]
 
 
+def load_annotation(connection: Connection, uid: str) -> Annotation | None:
+    """One annotation, also where it was deleted."""
+    row = connection.execute(SELECT_ANNOTATIONS.where(annotation.c.uid == uid)).one_or_none()
+    return None if row is None else annotation_of(row)
+
+
 def load_predictions(connection: Connection, image_id: int) -> list[Prediction]:
     """All predictions of the latest run that saw an image, deleted or accepted ones too."""
     return _predictions(connection, _of_latest_run(image_id))

@@ -73,6 +73,21 @@ class Project:
         with explained(str(self.folder)), self._writer.begin() as connection:
             return work(connection)
 
+    def written_by_others(self) -> int | None:
+        """A number that changes when another process writes; None where the database cannot tell."""
+        if self._writer.dialect.name != "sqlite":
+            return None
+        return self._thread.submit(self._data_version).result()
+
+    def _data_version(self) -> int:
+        """As the writer's own connection sees it, for which its own transactions do not count."""
+        connection = self._writer.raw_connection()
+        try:
+            (version,) = connection.cursor().execute("PRAGMA data_version").fetchone()
+        finally:
+            connection.close()  # back into the pool of one
+        return version
+
     def close(self) -> None:
         """Waits for the writes under way, then lets go of the database."""
         self._thread.shutdown(wait=True)

@@ -30,6 +30,7 @@ from fairyring.app.gateway.socket import editor_of
 from fairyring.app.gateway.static_files import EditorFiles
 from fairyring.app.gateway.viser_page import load_shell, shell_page
 from fairyring.app.gateway.viser_relay import relay_to
+from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
 from fairyring.model.errors import FairyringError
@@ -85,9 +86,12 @@ def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
         panels = await asyncio.to_thread(partial(start_viser, upstream, label=workspace.project.name))
         _greet(panels, workspace, asyncio.get_running_loop())
+        watching = asyncio.create_task(watch(workspace))
         try:
             yield
         finally:
+            watching.cancel()
+            await asyncio.gather(watching, return_exceptions=True)
             await workspace.close()
             await asyncio.to_thread(stop_viser, panels)
 

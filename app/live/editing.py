@@ -21,11 +21,15 @@ log = logging.getLogger(__name__)
 
 async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
     """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
-    outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.scene, session.user)
-    session.send(Outcomes(outcomes=outcomes))
-    accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
-    session.take_in(accepted)
-    session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
+    session.storing = {edit.annotation for edit in edits}
+    try:
+        outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.scene, session.user)
+        session.send(Outcomes(outcomes=outcomes))
+        accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
+        session.take_in(accepted)
+        session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
+    finally:
+        session.storing = set()
     for image_id in {annotation.image for annotation in accepted}:
         workspace.reviewer.touch(image_id)
         changed = [annotation for annotation in accepted if annotation.image == image_id]

@@ -67,6 +67,8 @@ class Session:
     layers: Layers = field(
         default_factory=lambda: Layers(visible={layer.name: layer.shown for layer in LAYERS.values()})
     )
+    storing: set[str] = field(default_factory=set)
+    """Annotations with edits of this tab on their way to the disk."""
     waiting: int = 0
     """Edits the browser holds that are not acknowledged yet, by its own account."""
 

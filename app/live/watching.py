@@ -1,0 +1,85 @@
+"""Changes that another process makes to the project: an import, a prediction, a script. Open tabs follow."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+
+import anyio.to_thread
+import msgspec
+from sqlalchemy import Connection
+
+from fairyring.app.live.opening import CHANGES_IMAGE, reopen
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.protocol import Changed, Predicted
+from fairyring.model.errors import FairyringError
+from fairyring.storage.contents import load_annotation
+from fairyring.storage.records import Annotation, ImageContents
+
+log = logging.getLogger(__name__)
+
+EVERY_S = 1.0
+SOMEBODY = "another program"
+"""Who made a change that came in from outside, to those who see it."""
+
+
+async def watch(workspace: Workspace) -> None:
+    """Looks once a second, until it is cancelled, whether others have written, and shows what they wrote."""
+    seen = await _written_by_others(workspace)
+    while seen is not None:
+        await asyncio.sleep(EVERY_S)
+        try:
+            now = await _written_by_others(workspace)
+            if now != seen:
+                await catch_up(workspace)
+                seen = now
+        except FairyringError as error:
+            log.warning("What others wrote cannot be read now: %s", error)
+
+
+async def _written_by_others(workspace: Workspace) -> int | None:
+    return await anyio.to_thread.run_sync(workspace.project.written_by_others)
+
+
+async def catch_up(workspace: Workspace) -> None:
+    """Brings every tab up to what the store holds now."""
+    for image_id in {tab.image.id for tab in workspace.tabs if tab.image is not None}:
+        _, contents = await workspace.read(lambda c, i=image_id: workspace.recent.load(c, i))
+        for tab in workspace.tabs.others_on(image_id):
+            gone = await workspace.read(lambda c, t=tab, now=contents: _deleted(c, t, now))
+            _bring_up_to(tab, contents, gone)
+    for tab in workspace.tabs:
+        if tab.image is None and tab.outbox is not None:
+            await reopen(workspace, tab, None)
+    workspace.refresh(*CHANGES_IMAGE, "predict")
+
+
+def _deleted(connection: Connection, tab: Session, contents: ImageContents) -> list[Annotation]:
+    """What the tab shows and the store has no longer, as it was deleted."""
+    live = {annotation.uid for annotation in contents.annotations}
+    missing = [a.uid for a in list(tab.annotations.values()) if not a.deleted and a.uid not in live]
+    found = [load_annotation(connection, uid) for uid in missing]
+    return [annotation for annotation in found if annotation is not None and annotation.deleted]
+
+
+def _bring_up_to(tab: Session, contents: ImageContents, gone: list[Annotation]) -> None:
+    """Tells one tab what is new to it; on caps it is storing an edit of, the journal's answer tells it."""
+    if tab.contents is None or not tab.shows(contents.image.id):
+        return
+    changed = [
+        annotation
+        for annotation in [*contents.annotations, *gone]
+        if annotation.uid not in tab.storing and _is_news(annotation, tab.annotations.get(annotation.uid))
+    ]
+    if changed:
+        tab.take_in(changed)
+        tab.send(Changed(image=contents.image.id, annotations=changed, user=SOMEBODY))
+    if contents.predictions != tab.contents.predictions or contents.run != tab.contents.run:
+        tab.take_predictions(contents)
+        tab.send(Predicted(image=contents.image.id, predictions=contents.predictions))
+    tab.contents = msgspec.structs.replace(tab.contents, image=contents.image)
+
+
+def _is_news(annotation: Annotation, known: Annotation | None) -> bool:
+    return known is None or known.revision < annotation.revision
