@@ -18,7 +18,7 @@ import numpy as np
 from fairyring.app.bench.timing import Row
 from fairyring.app.commands.files import read_json
 from fairyring.model.contour.coco import silhouettes_of
-from fairyring.model.contour.methods import METHODS
+from fairyring.model.contour.methods import DEFAULT_METHOD, METHODS
 from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
 from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.scene.clusters import Recipe, make_cluster
@@ -29,22 +29,15 @@ HEAVY = 0.6
 PARTLY = 0.9
 """One with more than that and less than this, as partly hidden."""
 
-Choice = Callable[[np.ndarray, np.ndarray], np.ndarray]
-"""Which caps a row is about, by the visible shares and the doubts of all (n,)."""
-CERTAIN: dict[str, Choice] = {"without doubtful caps": lambda _visible, doubtful: ~doubtful}
-BY_COVERAGE: dict[str, Choice] = {
-    **CERTAIN,
-    "visible < 60 %": lambda visible, doubtful: ~doubtful & (visible < HEAVY),
-    "visible 60–90 %": lambda visible, doubtful: ~doubtful & (visible >= HEAVY) & (visible < PARTLY),
-    "visible ≥ 90 %": lambda visible, doubtful: ~doubtful & (visible >= PARTLY),
-    "doubtful": lambda _visible, doubtful: doubtful,
-}
+DRAWS = 2000
+"""How often caps are drawn anew, to say how far a difference between two methods may be chance."""
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """An image's masks with the true centres (n, 2) and the visible shares of the caps (n,)."""
+    """An image's name and masks with the true centres (n, 2) and the visible shares of the caps (n,)."""
 
+    name: str
     caps: list[Silhouette]
     centres: np.ndarray
     visible: np.ndarray
@@ -56,10 +49,33 @@ class Truth:
     height: int
 
 
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """The m caps of all images that count."""
+
+    image: np.ndarray
+    """(m,), names."""
+    visible: np.ndarray
+    doubtful: np.ndarray
+
+
+Choice = Callable[[Counted], np.ndarray]
+"""Which of the caps a row is about, (m,)."""
+CERTAIN: dict[str, Choice] = {"without doubtful caps": lambda caps: ~caps.doubtful}
+BY_COVERAGE: dict[str, Choice] = {
+    **CERTAIN,
+    "visible < 60 %": lambda caps: ~caps.doubtful & (caps.visible < HEAVY),
+    "visible 60–90 %": lambda caps: ~caps.doubtful & (caps.visible >= HEAVY) & (caps.visible < PARTLY),
+    "visible ≥ 90 %": lambda caps: ~caps.doubtful & (caps.visible >= PARTLY),
+    "doubtful": lambda caps: caps.doubtful,
+}
+
+
 def contour_rows(*, quick: bool = False, real: Path | None = None) -> list[Row]:
     """One row a set of masks and method.
 
-    Also of ``real``, a COCO file of checked photos or its folder, there by how much of the caps is in sight.
+    Also of ``real``, a COCO file of checked photos or its folder, there by how much of the caps is in sight
+    and photo by photo.
     """
     count = 1 if quick else 20
     rows = []
@@ -73,16 +89,23 @@ def contour_rows(*, quick: bool = False, real: Path | None = None) -> list[Row]:
 
 
 def measured_by_coverage(document: dict[str, Any]) -> list[Row]:
-    """The rows of a COCO document of checked caps: of all that are certain, by coverage, of the doubtful.
+    """The rows of a COCO document of checked caps: of the certain ones, by coverage and photo, of the rest.
 
     Its caps hold ``center``, and may hold ``visible_fraction`` (else 1), ``doubt`` and ``ignore``.
     """
-    return _rows(_checked(document), BY_COVERAGE)
+    images = _checked(document)
+    photos = {image.name: _certain_of(image.name) for image in images} if len(images) > 1 else {}
+    return _rows(images, BY_COVERAGE | photos)
+
+
+def _certain_of(name: str) -> Choice:
+    return lambda caps: ~caps.doubtful & (caps.image == name)
 
 
 def _made(seed: int, noise: float) -> Truth:
     cluster = make_cluster(seed=seed, recipe=Recipe(noise=noise))
     return Truth(
+        name=f"cluster {seed}",
         caps=[Silhouette(cap.mask, cap.left, cap.top) for cap in cluster.caps],
         centres=np.array([(cap.whole.cx, cap.whole.cy) for cap in cluster.caps]),
         visible=np.array([cap.visible_fraction for cap in cluster.caps]),
@@ -99,6 +122,7 @@ def _checked(document: dict[str, Any]) -> list[Truth]:
         caps = [each for each in document["annotations"] if each["image_id"] == image["id"]]
         images.append(
             Truth(
+                name=str(image["file_name"]),
                 caps=silhouettes_of(caps, width=image["width"], height=image["height"]),
                 centres=np.array([cap["center"] for cap in caps], np.float64),
                 visible=np.array([cap.get("visible_fraction", 1.0) for cap in caps]),
@@ -114,24 +138,34 @@ def _checked(document: dict[str, Any]) -> list[Truth]:
 def _rows(images: Sequence[Truth], choices: dict[str, Choice]) -> list[Row]:
     plain = sum(_plain(image.caps) for image in images)
     measured = {method: _measure(method, images) for method in METHODS}
+    caps = Counted(
+        image=np.concatenate([np.repeat(image.name, image.counts.sum()) for image in images]),
+        visible=np.concatenate([image.visible[image.counts] for image in images]),
+        doubtful=np.concatenate([image.doubtful[image.counts] for image in images]),
+    )
     return [
-        row
+        {
+            "masks": masks,
+            "method": method,
+            **_figures(errors, chosen, caps.visible),
+            **_over(errors.cdr[chosen], measured[DEFAULT_METHOD].cdr[chosen]),
+            "us_per_cap": round(1e6 * errors.seconds / errors.caps),
+            "times_fit_ellipse": round(errors.seconds / plain, 1),
+        }
         for masks, choice in choices.items()
+        if (chosen := choice(caps)).any()
         for method, errors in measured.items()
-        if (row := _row(errors, choice, masks=masks, method=method, plain=plain)) is not None
     ]
 
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Of the caps of all images for which a method gives a centre."""
+    """Of the m caps of all images that count, not a number where a method gives no centre."""
 
     cdr: np.ndarray
     """(m,), percent."""
     scores: np.ndarray
     """(m, 2), centre errors in standard deviations, clipped at 5."""
-    visible: np.ndarray
-    doubtful: np.ndarray
     seconds: float
     """That the method took for all of the images' caps."""
     caps: int
@@ -143,40 +177,47 @@ def _measure(method: str, images: Sequence[Truth]) -> Errors:
         return reconstruct_silhouettes(image.caps, width=image.width, height=image.height, method=method)
 
     errors = [_errors(image, fit(image)) for image in images]
-    cdr, scores, visible, doubtful = (np.concatenate(part) for part in zip(*errors, strict=True))
+    cdr, scores = (np.concatenate(part) for part in zip(*errors, strict=True))
     seconds = sum(_seconds(lambda image=image: fit(image)) for image in images)
-    return Errors(cdr, scores, visible, doubtful, seconds, sum(len(image.caps) for image in images))
+    return Errors(cdr, scores, seconds, sum(len(image.caps) for image in images))
 
 
-def _row(errors: Errors, choice: Choice, *, masks: str, method: str, plain: float) -> Row | None:
-    """None where there is no such cap."""
-    chosen = choice(errors.visible, errors.doubtful)
-    if not chosen.any():
-        return None
-    cdr, scores = errors.cdr[chosen], errors.scores[chosen]
-    heavy = cdr[errors.visible[chosen] < HEAVY]
+def _figures(errors: Errors, chosen: np.ndarray, visible: np.ndarray) -> Row:
+    """Of those of the chosen caps that have a centre."""
+    known = chosen & np.isfinite(errors.cdr)
+    cdr, scores = errors.cdr[known], errors.scores[known]
+    heavy = cdr[visible[known] < HEAVY]
+    if len(cdr) == 0:
+        return {"caps": 0}
     return {
-        "masks": masks,
-        "method": method,
         "caps": len(cdr),
         "cdr_mean": round(float(cdr.mean()), 4),
         "cdr_median": round(float(np.median(cdr)), 4),
         "cdr_p95": round(float(np.percentile(cdr, 95)), 3),
         "cdr_heavily_hidden": round(float(heavy.mean()), 3) if len(heavy) else None,
         "rms_z": round(float(np.sqrt(np.mean(scores**2))), 2) if np.isfinite(scores).all() else None,
-        "us_per_cap": round(1e6 * errors.seconds / errors.caps),
-        "times_fit_ellipse": round(errors.seconds / plain, 1),
     }
 
 
-def _errors(image: Truth, found: Sequence[Reconstruction]) -> tuple[np.ndarray, ...]:
-    """Of the caps that count and have a centre: as the first four fields of `Errors`."""
-    known = np.array([each.centre is not None for each in found]) & image.counts
+def _over(cdr: np.ndarray, best: np.ndarray) -> Row:
+    """How much larger errors (k,) are in the mean than the default method's on the same caps.
+
+    With the interval that holds 95 % of that mean when the caps are drawn anew, each time with both errors.
+    """
+    more = (cdr - best)[np.isfinite(cdr - best)]
+    if not more.any():
+        return {"over_map": None, "over_map_95": None}
+    draws = np.random.default_rng(SEED).integers(len(more), size=(DRAWS, len(more)))
+    low, high = np.percentile(more[draws].mean(axis=1), (2.5, 97.5))
+    return {"over_map": round(float(more.mean()), 4), "over_map_95": f"{low:.3f} to {high:.3f}"}
+
+
+def _errors(image: Truth, found: Sequence[Reconstruction]) -> tuple[np.ndarray, np.ndarray]:
+    """Of the caps that count: as the first two fields of `Errors`."""
     nowhere = (np.nan, np.nan)
-    off = np.array([each.centre or nowhere for each in found])[known] - image.centres[known]
-    sd = np.array([each.centre_sd or nowhere for each in found])[known]
-    cdr = 100 * np.abs(off / (image.width, image.height)).sum(axis=1)
-    return cdr, np.clip(off / sd, -5, 5), image.visible[known], image.doubtful[known]
+    off = np.array([each.centre or nowhere for each in found])[image.counts] - image.centres[image.counts]
+    sd = np.array([each.centre_sd or nowhere for each in found])[image.counts]
+    return 100 * np.abs(off / (image.width, image.height)).sum(axis=1), np.clip(off / sd, -5, 5)
 
 
 def _plain(caps: Sequence[Silhouette]) -> float:

@@ -21,6 +21,7 @@ class MethodName(StrEnum):
     paper = "paper"
     literal = "literal"
     ellipse = "ellipse"
+    hull = "hull"
     enclosing = "enclosing"
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isfinite, sqrt
 
 import cv2
+import cv2.typing
 import numpy as np
 from msgspec.structs import replace
 
@@ -16,6 +18,17 @@ def least_squares_ellipse(points: Points) -> Ellipse | None:
 
     Five distinct points that do not lie on one line are the least that do.
     """
+    return _fitted(points, cv2.fitEllipseDirect)
+
+
+def hull_ellipse(points: Points) -> Ellipse | None:
+    """OpenCV's `fitEllipse` of the corners of the points' convex hull; None if they determine no ellipse."""
+    origin = points.mean(axis=0)
+    corners = cv2.convexHull((points - origin).astype(np.float32), returnPoints=False)[:, 0]
+    return _fitted(points[corners], cv2.fitEllipse)
+
+
+def _fitted(points: Points, fit: Callable[..., cv2.typing.RotatedRect]) -> Ellipse | None:
     if len(points) < 5 or distinct_points(points) < 5:
         return None
     origin = points.mean(axis=0)
@@ -23,7 +36,7 @@ def least_squares_ellipse(points: Points) -> Ellipse | None:
     local = (points - origin).astype(np.float32)
     if np.linalg.matrix_rank(local, tol=1e-3) < 2:
         return None
-    found = ellipse_of_rotated_box(cv2.fitEllipseDirect(local))
+    found = ellipse_of_rotated_box(fit(local))
     if not all(map(isfinite, (found.cx, found.cy, found.a, found.b, found.theta_deg))) or found.b <= 0:
         return None
     return replace(found, cx=found.cx + float(origin[0]), cy=found.cy + float(origin[1]))

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import dist
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.arcs import arcs_of, kinds_of
 from fairyring.model.contour.circle import enclosing_circle
-from fairyring.model.contour.ellipse import grown, least_squares_ellipse, mean_radius
+from fairyring.model.contour.ellipse import grown, hull_ellipse, least_squares_ellipse, mean_radius
 from fairyring.model.contour.harmonic import Array, Outlines
 from fairyring.model.contour.order import overlap_order
 from fairyring.model.contour.paper import LITERAL, PAPER, Reading, reconstruct_contour
@@ -142,6 +143,15 @@ def _by_ellipse(contour: Points, _area: float) -> Reconstruction:
     return _found(grown(whole, RIM_INSET), why="ellipse on the whole contour")
 
 
+def _by_hull(contour: Points, _area: float) -> Reconstruction:
+    whole, around = hull_ellipse(contour), enclosing_circle(contour)
+    if whole is None:
+        return _found(around, why="too few corners for an ellipse; enclosing circle")
+    if dist((whole.cx, whole.cy), (around.cx, around.cy)) > around.r:
+        return _found(around, why="centre outside the enclosing circle; enclosing circle")
+    return _found(grown(whole, RIM_INSET), why="ellipse on the convex hull of the contour")
+
+
 def _by_enclosing_circle(contour: Points, _area: float) -> Reconstruction:
     # Not grown: the circle rests on the outermost pixels, whose centres all but reach the edge.
     return _found(enclosing_circle(contour), why="enclosing circle")
@@ -166,6 +176,7 @@ METHODS: dict[str, Method] = {
     "paper": by_reading(PAPER),
     "literal": by_reading(LITERAL),
     "ellipse": _one_by_one(_by_ellipse),
+    "hull": _one_by_one(_by_hull),
     "enclosing": _one_by_one(_by_enclosing_circle),
 }
 DEFAULT_METHOD = "map"

@@ -35,7 +35,7 @@ def document() -> dict:
     }
 
 
-@pytest.mark.parametrize("method", ["map", "paper", "literal", "ellipse", "enclosing"])
+@pytest.mark.parametrize("method", ["map", "paper", "literal", "ellipse", "hull", "enclosing"])
 def test_polygons_and_both_kinds_of_rle_get_the_same_centre(method: str):
     given = document()
     given["annotations"] = given["annotations"][:1]

@@ -55,6 +55,24 @@ def test_the_paper_recovers_a_cap_a_third_of_which_is_hidden_where_the_plain_ell
     assert errors["ellipse"] > 5
 
 
+def test_the_hull_goes_straight_over_the_hollow_that_a_cap_in_front_cuts():
+    cap, front = Circle(cx=180, cy=150, r=45), Circle(cx=245, cy=150, r=40)
+    errors = {}
+    for method in ("hull", "ellipse"):
+        (found,) = reconstruct_silhouettes([crescent(cap, front)], method=method, **SIZE)
+        assert found.centre is not None
+        errors[method] = math.dist(found.centre, (cap.cx, cap.cy))
+    assert errors["hull"] < 1
+    assert errors["ellipse"] > 2
+
+
+@pytest.mark.parametrize("method", ["ellipse", "hull"])
+def test_a_mask_too_small_for_an_ellipse_gets_the_circle_around_it(method: str):
+    (found,) = reconstruct_silhouettes([Silhouette(np.ones((2, 2), np.uint8), 20, 30)], method=method, **SIZE)
+    assert found.centre == pytest.approx((21, 31))
+    assert "enclosing circle" in found.why
+
+
 def test_the_paper_says_why():
     (found,) = reconstruct_silhouettes(
         [crescent(Circle(cx=180, cy=150, r=45), Circle(cx=225, cy=150, r=40))], method="paper", **SIZE
