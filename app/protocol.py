@@ -1,4 +1,4 @@
-"""What the editor and the server say to each other, as JSON text frames over one WebSocket a tab.
+"""The messages between editor and server: JSON text frames over one WebSocket a tab.
 
 ``static/editor/protocol.js`` says the same in JSDoc types; a test compares the two.
 """
@@ -21,7 +21,7 @@ class Hello(FromEditor, frozen=True, tag="hello"):
 
     token: str
     image: int | None = None
-    """Shown before the connection broke, else None: the server chooses."""
+    """The image shown before the connection broke; None lets the server choose."""
 
 
 class Open(FromEditor, frozen=True, tag="open"):
@@ -53,7 +53,7 @@ class Refit(FromEditor, frozen=True, tag="refit"):
 
 
 class Select(FromEditor, frozen=True, tag="select"):
-    """What is selected now, for the inspector."""
+    """Says what is selected, for the inspector."""
 
     annotation: str | None = None
     prediction: int | None = None
@@ -73,7 +73,7 @@ class Saving(FromEditor, frozen=True, tag="saving"):
 
 
 class Toggle(FromEditor, frozen=True, tag="toggle"):
-    """A key showed or hid a layer; the panel follows and answers with `Layers`."""
+    """Shows or hides a layer, by a key; answered with `Layers`."""
 
     layer: str
 
@@ -101,7 +101,7 @@ class Show(FromServer, frozen=True, tag="show"):
     """URL of the photo."""
     select: str | None = None
     position: int = 0
-    """In the list as filtered, from 0."""
+    """Position in the filtered list, from 0."""
     count: int = 0
     ahead: list[str] = field(default_factory=list)
     """URLs of the photos likely to be shown next, fetched in advance."""
@@ -122,7 +122,7 @@ class Changed(FromServer, frozen=True, tag="changed"):
 
 
 class Predicted(FromServer, frozen=True, tag="predicted"):
-    """A run has just said this of the image on screen; what earlier runs said of it is no longer shown."""
+    """New predictions of the image on screen by a run; they replace those of earlier runs."""
 
     image: int
     predictions: list[Prediction]
@@ -133,7 +133,7 @@ class Arc(Struct, frozen=True, kw_only=True):
 
     kind: Literal["visible", "hidden", "border", "concave"]
     points: list[float]
-    """Along the outline, a flat list x0, y0, x1, y1, …"""
+    """Points along the outline as a flat list x0, y0, x1, y1, …; pixels."""
 
 
 class Fit(FromServer, frozen=True, tag="fit"):

@@ -1,4 +1,4 @@
-"""What can be set, and where: defaults < the project's fairyring.toml < environment < options."""
+"""Settings of ``fairyring serve``: defaults < the project's fairyring.toml < environment < options."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ class SettingsError(FairyringError):
 
 
 class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Settings of ``fairyring serve``."""
+    """The settings, each with its default."""
 
     host: str = "127.0.0.1"
     port: int = 8080
     token: bool = True
     """Whether only browsers are let in that open the address which the server printed."""
     photo_cache_mb: int = 1024
-    """Photos converted for the browser that are kept in the project's cache folder."""
+    """Most megabytes of converted photos in the project's cache folder."""
     message_limit_mb: int = 16
-    """The largest message an editor may send."""
+    """Megabytes of the largest message an editor may send."""
 
 
 def load_settings(

@@ -1,4 +1,4 @@
-"""Which weights a project's photos are read with: its own newest, else those that come with Fairyring."""
+"""The weights that a project is predicted with: its own newest, else the shipped ones."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from fairyring.storage.project import Project
 
 
 def weights_of(project: Project) -> Path | None:
-    """The newest in the project's ``weights`` folder, else the shipped ones; None where there are none."""
+    """Path of the newest weights in the project's ``weights``, else of the shipped ones; None without any."""
     own = sorted((file.stat().st_mtime, file) for file in (project.folder / "weights").glob("*.safetensors"))
     if own:
         return own[-1][1]
@@ -18,7 +18,7 @@ def weights_of(project: Project) -> Path | None:
 
 
 def require_weights(project: Project) -> Path:
-    """``weights_of``, or FairyringError with the remedy."""
+    """As ``weights_of``; raises FairyringError with the remedy where there are none."""
     found = weights_of(project)
     if found is None:
         raise FairyringError(

@@ -1,4 +1,4 @@
-"""What the same disk does without Fairyring."""
+"""A reference without Fairyring: what bare SQLite does on the same disk."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ class Bed(Struct, frozen=True, kw_only=True):
     height: int
     caps: int
     vertices: int
-    """Of each cap's outline."""
+    """Vertices of each cap's outline."""
     seed: int = 0
     """Beds of one size and seed have the same photo."""
 

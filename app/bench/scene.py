@@ -28,7 +28,7 @@ from fairyring.model.scene.settings import Settings
 HIDDEN, LITTLE = 0.95, 0.6
 """A cap of less than this in sight is partly hidden; of less than that, little is in sight."""
 SLACK = 0.25
-"""By how much of them the real photos' least and greatest values are widened."""
+"""The allowed range is the real photos' least to greatest value, widened by this share of them."""
 LEAST_SPEED, MOST_MEMORY = 2.0, 500.0
 
 Figures = dict[str, float]
@@ -59,7 +59,7 @@ REAL: dict[str, tuple[float, float]] = {
 
 
 def scene_rows(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
-    """Rows of figure, rendered, real, allowed, ok."""
+    """The table: each figure of rendered beds and of real photos, and whether it is in the allowed range."""
     ranges = _measure_folder(real) if real else REAL
     beds = 2 if quick else 12
     rendered = [_figures_of_bed(PRESETS["farm"], index) for index in range(beds)]
@@ -76,7 +76,7 @@ def scene_rows(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]
 
 
 def measure(image: NDArray[np.uint8], *, diameters: list[float], fractions: list[float]) -> Figures:
-    """A bed in numbers; its caps have these diameters (px), and these fractions of them are in sight."""
+    """The figures of one bed, given its caps' diameters (px) and the visible fraction of each."""
     size, sight = np.asarray(diameters), np.asarray(fractions)
     figures: Figures = {"caps": float(len(size))}
     for percent in (10, 50, 90):
@@ -115,7 +115,7 @@ def _figures_of_bed(settings: Settings, index: int) -> Figures:
 
 
 def _cost_rows(count: int) -> list[dict[str, Any]]:
-    """Measured in a process of its own: one core, and no memory but the renderer's."""
+    """Speed and memory, measured in a process of its own: one core, no memory but the renderer's."""
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         seconds, reference, memory = pool.apply(_cost_of_beds, (count,))
     speed = 1 / seconds

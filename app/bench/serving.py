@@ -33,7 +33,7 @@ class Server:
 
     @property
     def url(self) -> str:
-        """Where the browser goes."""
+        """The page's address."""
         return f"http://127.0.0.1:{self.port}"
 
     def start(self) -> None:
@@ -48,13 +48,13 @@ class Server:
             time.sleep(0.05)
 
     def kill(self) -> None:
-        """As a power cut would: SIGKILL."""
+        """Ends it as a power cut would, by SIGKILL."""
         assert self.process is not None, "it has been started"
         self.process.kill()
         self.process.wait()
 
     def stop(self) -> int:
-        """As Ctrl+C would; returns the exit code."""
+        """Ends it as Ctrl+C would; returns the exit code."""
         assert self.process is not None, "it has been started"
         self.process.send_signal(signal.SIGINT)
         return self.process.wait(timeout=20)

@@ -16,7 +16,7 @@ from fairyring.model.scene.presets import PRESETS
 TILE = (640, 360)
 ACROSS = 4
 EACH = 4
-"""Beds of every preset."""
+"""How many beds of each preset are on the sheet."""
 
 Picture = NDArray[np.uint8]
 
@@ -54,7 +54,7 @@ def _beds() -> list[Picture]:
 
 
 def _tile(picture: Picture) -> Picture:
-    """The picture whole, in the middle of a tile."""
+    """The whole picture, scaled to fit a tile and centred on it."""
     width, height = TILE
     factor = min(width / picture.shape[1], height / picture.shape[0])
     small = cv2.resize(picture, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)

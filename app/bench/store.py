@@ -32,7 +32,7 @@ from fairyring.storage.records import Cap, Edit, ImageContents
 
 
 def store_rows(*, quick: bool = False) -> list[Row]:
-    """The table: import, list, open, edit, leaf through. Writes to a temporary folder (about 1.5 GB)."""
+    """Measures import, list, open, edit and leafing through, in a temporary folder (about 1.5 GB)."""
     count, leafed = (100, 3) if quick else (10_000, 100)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
         labels = write_labels(Path(folder) / "photos", _beds(count))

@@ -14,7 +14,7 @@ Row = dict[str, Any]
 
 
 def milliseconds(work: Callable[[T], object], over: Iterable[T]) -> list[float]:
-    """How long ``work`` took for each of ``over``."""
+    """Runs ``work`` on each item; milliseconds that each took."""
     taken = []
     for item in over:
         start = time.perf_counter()

@@ -157,7 +157,7 @@ def ablation(
 def _predicted(
     weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str
 ) -> Iterator[tuple[LabelledPhotos, dict[str, Any]]]:
-    """Each set, and what the network sees in it."""
+    """Each set of photos with the network's predictions for it."""
     from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.bench.network.tables import predicted_document
 

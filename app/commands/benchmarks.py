@@ -106,7 +106,7 @@ def contour(
 
 @contextmanager
 def driving_a_browser() -> Iterator[None]:
-    """Around imports that need the extra ``bench``. Raises FairyringError where it is not installed."""
+    """Wraps imports that need the extra ``bench``; FairyringError where that is not installed."""
     try:
         yield
     except ModuleNotFoundError as missing:

@@ -73,7 +73,7 @@ def centres(
 def _evaluated(
     evaluate: Callable[[Any, Any], dict[str, Any]], predicted: Path, truth: Path
 ) -> dict[str, Any]:
-    """The figures of two files, what is wrong with one of them told with its name."""
+    """The figures of two files; errors name the file they are about."""
     from fairyring.model.evaluate.pages import DocumentError
 
     documents = read_json(predicted), read_json(truth)

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def last_line() -> Iterator[Callable[[str], None]]:
-    """Yields what writes the line. Where stderr is no terminal, it is written once, like any other."""
+    """Yields a function that writes the line; where stderr is no terminal, it is an ordinary line."""
     from rich.console import Console
     from rich.live import Live
     from rich.text import Text
@@ -25,7 +25,7 @@ def last_line() -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def _logs_to_stderr_as_it_is() -> Iterator[None]:
-    """While ``sys.stderr`` stands for a terminal whose last line is kept, logs take that way too."""
+    """Sends logs to ``sys.stderr`` as it is now, so that they too stay above the last line."""
     handlers = [handler for handler in logging.root.handlers if type(handler) is logging.StreamHandler]
     before = [handler.setStream(sys.stderr) for handler in handlers]
     try:

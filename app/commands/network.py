@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Device(StrEnum):
-    """What to compute on."""
+    """The device to compute on."""
 
     auto = "auto"
     cpu = "cpu"

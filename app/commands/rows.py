@@ -11,7 +11,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print the figures as JSON.
 
 
 def print_rows(title: str, rows: list[dict[str, Any]], *, as_json: bool) -> None:
-    """A column for each key of the first row."""
+    """Prints a table with a column for each key of the first row, or the rows as JSON."""
     if as_json:
         typer.echo(json.dumps(rows))
         return

@@ -39,7 +39,7 @@ def open_for_people(
     token: bool | None = None,
     config: Path | None = None,
 ) -> None:
-    """Serves a project until Ctrl+C or SIGTERM, and shows its address from when it answers on."""
+    """Serves a project until Ctrl+C or SIGTERM; shows its address once it answers."""
     from fairyring.app.gateway.server import serve as run
     from fairyring.app.settings import load_settings
 

@@ -10,12 +10,12 @@ from contextlib import contextmanager
 from fairyring.model.progress import Progress
 
 INTERRUPTED = 130
-"""Exit code after Ctrl+C and SIGTERM alike, as shells have it of the first."""
+"""Exit code after Ctrl+C or SIGTERM; shells report the same after Ctrl+C."""
 
 
 @contextmanager
 def stopped_by_sigterm(progress: Progress) -> Iterator[Progress]:
-    """After SIGTERM, which kill, systemd and containers send, the progress yielded raises KeyboardInterrupt.
+    """Makes SIGTERM (kill, systemd, containers) act like Ctrl+C: ``progress`` then raises KeyboardInterrupt.
 
     So work ends between two steps and never within one.
     """

@@ -1,4 +1,4 @@
-"""What a demo was begun with, kept in its folder until it is whole, so that it can be gone on with.
+"""A note in a demo's folder of what it was begun with, so that an interrupted one can be finished.
 
 Light to import: whether there is anything left to make is asked each time the demo is opened.
 """
@@ -18,7 +18,7 @@ from msgspec import Struct
 from fairyring.storage.errors import StoreError
 
 UNFINISHED = "unfinished"
-"""Folder in the project, for as long as the demo is being made."""
+"""Folder in the project that exists while the demo is being made."""
 BEGUN, LOCK = "begun.json", "lock"
 
 
@@ -41,13 +41,13 @@ def begun_in(folder: Path) -> Begun | None:
 
 
 def beds_of(folder: Path) -> Path:
-    """Where the beds are rendered to."""
+    """The folder that the beds are rendered into."""
     return folder / UNFINISHED / "beds"
 
 
 @contextmanager
 def begun(folder: Path, demo: Begun) -> Iterator[Begun]:
-    """Yields the demo begun in ``folder``, which is this one where there is none; finished after the block.
+    """Yields the demo begun in ``folder``, or begins this one; after the block it counts as finished.
 
     Raises StoreError where another process is making it, or ``folder`` cannot be written.
     """
@@ -65,7 +65,7 @@ def begun(folder: Path, demo: Begun) -> Iterator[Begun]:
 
 
 def _locked(lock: Path, folder: Path) -> IO[str]:
-    """The lock, open; it is let go of when it is closed, and when this process ends, however it does."""
+    """Takes the lock; it is released when the file is closed or this process ends."""
     try:
         lock.parent.mkdir(parents=True, exist_ok=True)
         opened = lock.open("w")

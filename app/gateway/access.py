@@ -37,13 +37,13 @@ class Door:
 
     key: bytes = field(repr=False)
     cookie: str
-    """Its name; cookies are shared by all ports of a host, so that each project has one of its own."""
+    """Name of the cookie, one a project: all ports of a host share their cookies."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     used: Callable[[], object] = lambda: None
     """Called when the token was spent and another has taken its place."""
 
     def spend(self, token: str) -> bool:
-        """Whether this is the token; if so it leads nobody in any more."""
+        """Whether this is the token; a right one is used up by asking."""
         if not hmac.compare_digest(token.encode(errors="replace"), self.token.encode()):
             return False
         self.token = secrets.token_urlsafe(24)
@@ -51,7 +51,7 @@ class Door:
         return True
 
     def new_pass(self) -> str:
-        """A cookie's value."""
+        """The value of a new cookie."""
         number = secrets.token_urlsafe(16)
         return f"{number}.{self._signature(number)}"
 
@@ -110,7 +110,7 @@ class OnlyWithPass:
         return given is not None and self.door.knows(given.value)
 
     def _answer(self, scope: Scope) -> Response:
-        """To a browser without the cookie: the way in, where it has the token."""
+        """Answers a browser without the cookie: lets it in if it has the token, else refuses."""
         tokens = parse_qs(scope["query_string"].decode("latin-1")).get("token", [])
         is_page = scope["path"] == "/" and scope["method"] == "GET"
         if is_page and len(tokens) == 1 and self.door.spend(tokens[0]):

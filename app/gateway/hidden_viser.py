@@ -29,9 +29,9 @@ from fairyring.model.errors import FairyringError
 HEADER = "X-Fairyring-Secret"
 GREEN = (47, 111, 79)
 PANEL_WIDTH = 380
-"""Pixels."""
+"""Width of the panel, pixels."""
 UNUSED = (viser._messages.ShareUrlRequest, viser._messages.ShareUrlDisconnect)
-"""Messages by which anybody connected makes the server dial a public tunnel."""
+"""Messages that would make viser open a public tunnel; they are disabled."""
 
 STARTING = "serve"
 """The function of ``websockets.asyncio.server`` by which viser starts its server."""
@@ -58,7 +58,7 @@ class Upstream:
 
     @property
     def headers(self) -> dict[str, str]:
-        """What a request to viser must carry."""
+        """Headers that every request to viser must carry."""
         return {HEADER: self.secret}
 
 
@@ -89,13 +89,13 @@ def start_viser(upstream: Upstream, *, label: str) -> viser.ViserServer:
 
 
 def stop_viser(panels: viser.ViserServer) -> None:
-    """Stops it, without a word on stdout."""
+    """Stops viser, without a word on stdout."""
     quietly(panels.stop)
 
 
 @contextmanager
 def _asking_for(secret: str) -> Iterator[None]:
-    """While this lasts, a server that ``websockets`` starts refuses every request without the secret.
+    """Makes a server that ``websockets`` starts within the block refuse every request without the secret.
 
     viser hands its server no check of its own, so the function by which it starts one is put in its place.
     """
@@ -127,6 +127,6 @@ def _status_without_secret(port: int) -> int:
 
 
 def quietly(call: Callable[[], Result]) -> Result:
-    """Calls, and throws away what it prints."""
+    """Calls a function and drops what it prints."""
     with contextlib.redirect_stdout(io.StringIO()):
         return call()

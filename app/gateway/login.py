@@ -1,4 +1,4 @@
-"""Until accounts exist: everybody says their name once, and a cookie remembers it."""
+"""The login without accounts: everybody says their name once, and a cookie remembers it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def clean_name(text: str) -> str | None:
 
 
 def name_of(connection: HTTPConnection) -> str | None:
-    """Who sent this request or opened this socket, as far as their cookie says."""
+    """The name in the cookie of a request or socket; None without a valid one."""
     return clean_name(unquote(connection.cookies.get(COOKIE, "")))
 
 
@@ -42,7 +42,7 @@ async def name_page(request: Request) -> Response:
 
 
 def ask_for_name(name: str = "", *, problem: str = "", status_code: int = 200) -> Response:
-    """The page with one field."""
+    """The page that asks for a name."""
     page = (STATIC / "name.html").read_text(encoding="utf-8")
     filled = page.replace("{{name}}", escape(name)).replace("{{problem}}", escape(problem))
     return HTMLResponse(filled, status_code=status_code, headers={"Cache-Control": "no-store"})

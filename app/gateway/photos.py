@@ -1,4 +1,4 @@
-"""Photos for the browser: upright, 8 bits, as they are where possible, converted and kept where not."""
+"""Photos for the browser, upright and 8 bits: the file itself where that will do, else a conversion."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> No
 
 
 def make_room(cache: Path, limit: int) -> None:
-    """Drops the photos longest unused until the cache fits, and at least the newest stays."""
+    """Deletes the least recently used photos until the cache fits ``limit`` bytes; the newest stays."""
     files = sorted(((f.stat(), f) for f in cache.glob("*.jpg")), key=lambda entry: entry[0].st_atime)
     total = sum(stat.st_size for stat, _ in files)
     for stat, file in files[:-1]:

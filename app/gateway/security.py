@@ -1,4 +1,4 @@
-"""Who may talk to the server at all: only pages that this very server sent.
+"""Which requests are answered at all: only those from pages that this very server sent.
 
 A page elsewhere on the web can make a browser send requests and open sockets to 127.0.0.1, and by
 DNS rebinding even read the answers. So every request must name a loopback host, and whatever can

@@ -1,4 +1,4 @@
-"""One command, one port: viser hidden on a free port of 127.0.0.1, the gateway in front of it."""
+"""The server: starts viser on a hidden port and the gateway in front of it."""
 
 from __future__ import annotations
 
@@ -152,7 +152,7 @@ def configure(app: Starlette, settings: Settings) -> uvicorn.Config:
 
 
 class _Server(uvicorn.Server):
-    """uvicorn's server, saying when it answers."""
+    """uvicorn's server, which calls back once it answers."""
 
     def __init__(self, config: uvicorn.Config, announce: Callable[[], None]) -> None:
         super().__init__(config)
@@ -165,7 +165,7 @@ class _Server(uvicorn.Server):
 
 
 def _greet(panels: viser.ViserServer, workspace: Workspace, loop: asyncio.AbstractEventLoop) -> None:
-    """Hands viser's clients over to the gateway's loop, where all tabs live."""
+    """Passes viser's clients on to the gateway's event loop, where the sessions are kept."""
 
     @panels.on_client_connect
     async def _(client: viser.ClientHandle) -> None:

@@ -114,7 +114,7 @@ async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> Non
 
 
 async def _encode(message: FromServer) -> str:
-    """As JSON; in a thread where the message may be large."""
+    """A message as JSON; encoded in a thread where it may be large."""
     if isinstance(message, Show | Predicted):
         return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
     return _outgoing.encode(message).decode()
@@ -141,7 +141,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
 
 
 async def _handle(workspace: Workspace, session: Session, refits: Refits, text: str) -> None:
-    """One message. What a person can put right is said to them; the socket stays open."""
+    """Carries out one message; errors that a person can put right are shown, and the socket stays open."""
     try:
         message = _incoming.decode(text)
     except msgspec.DecodeError as error:
@@ -185,7 +185,7 @@ class _Named(Struct):
 
 
 class _Unreadable(Struct):
-    """As much of an unreadable change set as it takes to refuse its edits by name."""
+    """The ids of an unreadable change set, to refuse its edits one by one."""
 
     edits: list[_Named] = []
 

@@ -10,7 +10,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 STATIC = Path(__file__).resolve().parents[2] / "static"
-"""Beside ``app``, in a checkout and where the wheel puts it."""
+"""The folder with the browser's files: beside ``app`` in a checkout, and where the wheel puts it."""
 
 
 class EditorFiles(StaticFiles):

@@ -12,7 +12,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 LARGEST = 16 * 2**10
-"""Bytes of a message; the largest that the panel's controls make is a search text."""
+"""Most bytes of a message; the largest that the panel's controls make is a search text."""
 
 Numbers3 = tuple[float, float, float]
 Text = Annotated[str, Meta(max_length=2000)]

@@ -66,7 +66,7 @@ async def shell_page(request: Request) -> Response:
 
 @cache
 def load_shell() -> Shell:
-    """viser's index.html, made ours.
+    """viser's index.html with the editor's module, styles and policy added.
 
     Raises FairyringError where the installed viser's page is not built as this version expects.
     """
@@ -90,7 +90,7 @@ def _unpack_module(bootstrap: re.Match[str]) -> bytes:
 
 
 def _from_base88(text: str) -> bytes:
-    """Five digits make four bytes, most significant first; a shorter last group one byte less than digits."""
+    """Decodes base 88: n digits make n - 1 bytes, most significant first, in groups of five digits."""
     digit_of = np.zeros(128, np.int64)
     digit_of[np.frombuffer(_DIGITS.encode(), np.uint8)] = np.arange(len(_DIGITS))
     digits = digit_of[np.frombuffer(text.encode(), np.uint8)]

@@ -1,4 +1,4 @@
-"""The WebSocket at ``/``: what the panel's controls say goes to viser, everything of viser's comes back."""
+"""The proxy at ``/``: passes the panel's messages on to viser, and all of viser's to the browser."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ UNSENDABLE = frozenset({1005, 1006, 1015})
 
 
 def relay_to(upstream: Upstream) -> Callable[[WebSocket], Awaitable[None]]:
-    """The endpoint for the hidden viser."""
+    """The WebSocket endpoint that stands before the hidden viser."""
 
     async def relay(browser: WebSocket) -> None:
         if name_of(browser) is None:

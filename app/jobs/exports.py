@@ -17,11 +17,11 @@ from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
 
 KEPT = 3
-"""Zip files that stay in the cache."""
+"""How many zip files stay in the cache."""
 
 
 def exports_folder(project: Project) -> Path:
-    """Where the zip files lie."""
+    """The folder of the zip files."""
     return project.folder / "cache" / "exports"
 
 
@@ -44,7 +44,7 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
 
 
 def _zip(folder: Path, made: Path, progress: Progress) -> None:
-    """Photos are compressed already, so everything is stored as it is."""
+    """Zips a folder without compressing: photos are compressed already."""
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     partial = made.with_suffix(".partial")
     try:

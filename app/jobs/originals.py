@@ -1,4 +1,4 @@
-"""Whether a photo on disk is still the one that was imported: its coordinates hold for no other."""
+"""Checks that a photo on disk is still the one that was imported: coordinates hold for no other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fairyring.storage.records import Image
 
 
 def original_of(project: Project, image: Image) -> Path:
-    """Where the photo lies. Raises FairyringError where it is gone or has been changed."""
+    """Path of a project's photo. Raises FairyringError where it is gone or has been changed."""
     path = project.folder / image.path
     try:
         with path.open("rb") as file:

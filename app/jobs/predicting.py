@@ -1,4 +1,4 @@
-"""What a network sees in a project's photos, stored image by image, so that stopping loses nothing."""
+"""Predicts a project's photos; each image is stored by itself, so that stopping loses nothing."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from fairyring.storage.project import Project
 from fairyring.storage.records import Image
 
 LEAST_SCORE = 0.3
-"""Predictions below are kept from people, who would have to turn down most of them one by one."""
+"""Predictions with a lower score are not stored: people would have to delete most of them one by one."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Network:
-    """A network ready to look at photos, and what its runs are called."""
+    """A network that is ready to predict, with the name and settings of its runs."""
 
     predictor: Predictor
     name: str
     digest: str
-    """Of the weights."""
+    """SHA-256 of the weights."""
     settings: dict[str, Any]
-    """Whatever else decides what it sees."""
+    """All other settings that decide its predictions."""
 
 
 @dataclass(kw_only=True)
@@ -51,11 +51,11 @@ class Outcome:
     """What became of the images that were to be predicted."""
 
     images: int = 0
-    """Predicted now."""
+    """How many were predicted now."""
     caps: int = 0
-    """Seen in them."""
+    """How many caps were found in them."""
     known: int = 0
-    """Images that this run had seen before."""
+    """How many images this run had predicted before."""
     problems: list[str] = field(default_factory=list)
     """A sentence for each photo that could not be read."""
 
@@ -137,14 +137,14 @@ def leave_a_core() -> None:
 
 
 class _Run:
-    """The run that predictions go into; it is entered with the first of them."""
+    """The run that predictions go into; stored with the first of them."""
 
     def __init__(self, network: Network, redo: bool) -> None:
         self._network, self._redo = network, redo
         self._id: int | None = None
 
     def store(self, connection: Connection, image_id: int, new: Sequence[NewPrediction]) -> None:
-        """Within ``Project.write``."""
+        """Stores an image's predictions; to be called within ``Project.write``."""
         if self._id is None:
             of = self._network
             run = continued_run(

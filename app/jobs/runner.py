@@ -21,7 +21,7 @@ log = logging.getLogger(__name__)
 State = Literal["running", "done", "failed", "cancelled"]
 
 KEPT = 12
-"""Finished jobs that stay listed."""
+"""How many finished jobs stay listed."""
 UNEXPECTED = "This stopped because of an error in Fairyring itself; the server's log says more."
 
 
@@ -43,7 +43,7 @@ class Job:
     message: str = ""
     """The result, or why there is none, in a sentence."""
     link: str = ""
-    """Where the browser can fetch what the job made."""
+    """Address at which the browser can fetch what the job made."""
     stop: threading.Event = field(default_factory=threading.Event)
 
     def cancel(self) -> None:
@@ -59,7 +59,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Result:
-    """What a job hands back."""
+    """What a job reports at its end."""
 
     message: str
     link: str = ""

@@ -29,9 +29,9 @@ from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.storage.folder import is_project
 
 IMAGENET = "imagenet"
-"""Given in place of a file: a new network, its backbone as ImageNet left it."""
+"""Word for a new network whose backbone has ImageNet weights, given in place of a weights file."""
 WARM_UP_SHARE = 0.1
-"""Of the iterations, where their number is given: the paper's 500 of 5000."""
+"""Share of the iterations that warm up, where their number is given: the paper's 500 of 5000."""
 FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 2e-5, 0.98
 """Iterations, rate and average of weights that are trained further."""
 
@@ -63,9 +63,9 @@ class Start:
 
     recipe: Recipe
     base: PRSOLOv2 | None
-    """Trained further; None for a new network, and for a training that goes on from its checkpoint."""
+    """Network to train further; None for a new one, and for a training resumed from its checkpoint."""
     notes: dict[str, Any]
-    """For ``run.json`` and the card of the weights."""
+    """Entries for ``run.json`` and the card of the weights."""
 
 
 def train_as_asked(
@@ -123,7 +123,7 @@ def recipe_of(
 
 
 def further() -> Recipe:
-    """How weights that can do their work learn more: as the shipped ones were trained, in gentler steps.
+    """The recipe for training good weights further: that of the shipped ones, with gentler steps.
 
     The paper's rate, which is for a new network, has them forget most of what they know within a few steps.
     """
@@ -169,7 +169,7 @@ def _require_imagenet(recipe: Recipe) -> None:
 
 
 def _upon_backbone(recipe: Recipe, path: Path) -> PRSOLOv2:
-    """A new network upon a classifier's state dict; nothing but tensors is read from the file."""
+    """A new network whose backbone loads a classifier's state dict; only tensors are read from the file."""
     torch.manual_seed(recipe.seed)
     network = PRSOLOv2(recipe.network)
     try:
@@ -184,14 +184,14 @@ def _upon_backbone(recipe: Recipe, path: Path) -> PRSOLOv2:
 
 
 def shipped_for(recipe: Recipe) -> str | None:
-    """The shipped weights, where there are some of the recipe's network."""
+    """Path of the shipped weights if they are of the recipe's network, else None."""
     if not SHIPPED.exists() or load_weights(SHIPPED).network.config != recipe.network:
         return None
     return str(SHIPPED)
 
 
 def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
-    """The training in ``out``, to go on with, by its own recipe.
+    """The start of a training that resumes the one in ``out``, by its own recipe.
 
     Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
     """

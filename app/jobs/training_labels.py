@@ -28,20 +28,20 @@ from fairyring.storage.records import Annotation, Cap, Image
 Item = TypeVar("Item")
 
 FEWEST_TO_DIVIDE = 4
-"""Images from which some are kept for validation."""
+"""Least number of images of which some are kept for validation."""
 VALIDATION, TEST = ("val", "valid", "validation"), ("test",)
-"""What an image's ``split`` may say; of others, and of none, is learnt."""
+"""Values of an image's ``split`` that mean validation and test; all other images are for training."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Labels:
-    """Labelled photos, and what is kept of where they came from."""
+    """Labelled photos, and the record of where they came from."""
 
     examples: list[Example]
     splits: list[str | None]
-    """What each image's ``split`` says."""
+    """The ``split`` of each example's image."""
     record: dict[str, Any]
-    """Which images, and which revision of every cap, for ``labels.json``."""
+    """The images, and the revision of every cap, for ``labels.json``."""
 
 
 def labels_at(
@@ -65,7 +65,7 @@ def labels_at(
 
 
 def labels_of_project(project: Project, *, progress: Progress = silent) -> Labels:
-    """Approved images, else all with annotations.
+    """The labels of a project: of its approved images, else of all with annotations.
 
     Ignored and doubtful caps, and those without a visible outline, are where nothing is learnt.
     Raises FairyringError for a photo that is gone or changed, and where nothing is annotated.
@@ -94,7 +94,7 @@ def labels_of_coco(
     in_turn: bool = False,
     progress: Progress = silent,
 ) -> Labels:
-    """All of COCO files; photos are found as an import finds them, beside each or in ``images/`` beside it.
+    """The labels of COCO files; photos are looked for beside each file and in ``images/`` beside it.
 
     Two files may each have a photo of one name. ``in_turn`` takes one image of each file, then the next of
     each, so that the first few are of all of them. What an import would report ends it, unless ``lenient``
@@ -124,13 +124,13 @@ def _one_after_the_other(lists: Sequence[list[Item]]) -> list[Item]:
 
 
 def _in_turn(lists: Sequence[list[Item]]) -> list[Item]:
-    """One of each list, then the next of each, until all have run out."""
+    """Takes one item of each list, then the next of each, until all lists are used up."""
     longest = max(map(len, lists), default=0)
     return [items[place] for place in range(longest) for items in lists if place < len(items)]
 
 
 def divided(labels: Labels, validation: Labels | None, *, seed: int) -> tuple[list[Example], list[Example]]:
-    """What is learnt from and what is validated on; test images are neither.
+    """The examples for training and those for validation; test images are in neither.
 
     Validated is ``validation`` where given, else what ``split`` names so, else a seeded three tenths of four
     images and more.

@@ -1,1 +1,1 @@
-"""Open tabs: which image each shows, and edits on their way to the store."""
+"""The sessions of open browser tabs: the image each shows, and its edits on their way to the store."""

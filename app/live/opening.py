@@ -1,4 +1,4 @@
-"""Showing images: the one asked for, the next of the list, the one to come back to; and their status."""
+"""Opening images in a tab: one asked for, the next of the list, the last one; and setting their status."""
 
 from __future__ import annotations
 

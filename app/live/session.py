@@ -1,4 +1,4 @@
-"""One browser tab: who sits there, which image is on screen, and how to reach it.
+"""The server's side of one browser tab: its user, the image on screen, and how to send it messages.
 
 All of this lives on the gateway's event loop. viser's callbacks run on viser's own loop and hop over;
 work that waits for the disk or computes hops to a thread and comes back.
@@ -45,22 +45,22 @@ class Session:
     beacon: viser.GuiHtmlHandle
     """The element that carries the token into the page."""
     token: str | None
-    """Good for one editor socket; None while that socket is open."""
+    """Admits one editor socket; None while that socket is open."""
     user: str = ""
     has_panel: bool = False
     redraw: Callable[[tuple[str, ...]], None] = lambda _parts: None
-    """Draws these parts of the panel anew, soon."""
+    """Has these parts of the panel drawn anew soon."""
     outbox: asyncio.Queue[FromServer] | None = None
-    """To the editor's socket; None while the editor is not connected."""
+    """Messages for the editor's socket; None while the editor is not connected."""
     hang_up: Callable[[], object] = lambda: None
-    """Ends the editor's socket."""
+    """Closes the editor's socket."""
     contents: ImageContents | None = None
-    """The image on screen as it was opened, by ``show``; ``annotations`` is kept up to date."""
+    """The image on screen as it was when ``show`` opened it; later edits are in ``annotations`` alone."""
     annotations: dict[str, Annotation] = field(default_factory=dict)
     boxes: Boxes = field(default_factory=Boxes)
     _scene: Scene | None = field(default=None, init=False, repr=False)
     filter: ImageFilter = field(default_factory=ImageFilter)
-    """Which images the list shows, and so what comes next."""
+    """The filter and order of the image list, which decide the next image."""
     position: int = 0
     count: int = 0
     selection: Selection = field(default_factory=Selection)
@@ -70,7 +70,7 @@ class Session:
     storing: set[str] = field(default_factory=set)
     """Annotations with edits of this tab on their way to the disk."""
     waiting: int = 0
-    """Edits the browser holds that are not acknowledged yet, by its own account."""
+    """Edits not acknowledged yet, as the browser counts them."""
 
     @property
     def image(self) -> Image | None:
@@ -102,7 +102,7 @@ class Session:
             self.hang_up()
 
     def notify(self, text: str, level: Literal["info", "warning", "error"] = "info") -> None:
-        """A sentence for the person at this tab."""
+        """Shows a sentence to the person at this tab."""
         self.send(Notice(text=text, level=level))
 
     def refresh(self, *parts: str) -> None:
@@ -132,7 +132,7 @@ class Session:
 
 
 class Tabs:
-    """Every open tab of the project. Tabs never share anything but the store."""
+    """The sessions of all open tabs; they share nothing but the store."""
 
     def __init__(self) -> None:
         self._sessions: dict[int, Session] = {}
@@ -141,19 +141,19 @@ class Tabs:
         return iter(tuple(self._sessions.values()))
 
     def arrive(self, client: viser.ClientHandle) -> None:
-        """viser has a new client: its panel shows nothing but a token, unseen, until the editor brings it."""
+        """Makes a session for a new viser client, whose panel holds a hidden token for the editor to send."""
         token = secrets.token_urlsafe(24)
         beacon = client.gui.add_html(_beacon(token), order=-1)
         self._sessions[client.client_id] = Session(client=client, beacon=beacon, token=token)
 
     def leave(self, client: viser.ClientHandle) -> None:
-        """viser's client is gone, and its editor with it."""
+        """Removes the session of a viser client that has gone, and closes its editor's socket."""
         session = self._sessions.pop(client.client_id, None)
         if session is not None:
             session.hang_up()
 
     def claim(self, token: str, user: str) -> Session | None:
-        """The tab this token was put into, if nobody has used it yet."""
+        """The session this token was made for; None where it was used before. It is used up by this."""
         for session in self:
             if session.token is not None and secrets.compare_digest(session.token, token):
                 session.token, session.user = None, user
@@ -161,7 +161,7 @@ class Tabs:
         return None
 
     def release(self, session: Session) -> None:
-        """The editor's socket is closed: a new token lets the same tab come back."""
+        """Notes that the editor's socket has closed, and gives the tab a new token to come back with."""
         session.outbox = None
         session.hang_up = lambda: None
         if session.client.client_id in self._sessions:

@@ -1,4 +1,4 @@
-"""What a served project consists of, handed to everything that needs it."""
+"""A served project: its store, sessions, jobs and background work."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Workspace:
         task.add_done_callback(self._ahead.discard)
 
     async def close(self) -> None:
-        """Stops what runs in the background."""
+        """Stops all background work."""
         await self.jobs.close()
         await self.reviewer.close()
         await asyncio.gather(*self._ahead, return_exceptions=True)

@@ -1,4 +1,4 @@
-"""From viser's event loop to the gateway's, where tabs live."""
+"""Callbacks from viser's event loop to the gateway's, and the redrawing of the panel's parts."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ log = logging.getLogger(__name__)
 
 UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
 REDRAW_AFTER_S = 0.1
-"""What happens in quick succession is drawn once, and after the editor has drawn what it was sent."""
+"""Delay of a redraw: quick successions are drawn once, and after the editor has drawn."""
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
 Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
@@ -47,7 +47,7 @@ async def _reported(session: Session, work: Callable[[], Awaitable[None]]) -> No
 
 
 class Redrawing:
-    """Draws the parts of one tab's panel: soon, one at a time, and each only as often as it pays."""
+    """Redraws the out-of-date parts of one tab's panel, after a short delay and one at a time."""
 
     def __init__(self, parts: dict[str, Redraw]) -> None:
         self._parts = parts

@@ -33,7 +33,7 @@ class _Shown:
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
-    """The filters and the list. It turns to the page of the image on screen whenever that changes."""
+    """Builds the filters and the list, which turns to the page of the image on screen when that changes."""
     gui, at = session.client.gui, _Shown()
     search = gui.add_text("Search", "", hint="Part of a file name")
     with gui.add_folder("Filter and order", expand_by_default=False):
@@ -74,7 +74,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def _chosen(value: str) -> str | None:
-    """What a filter asks for; None where it lets everything through."""
+    """The value of a filter's control; None where any will do."""
     return None if value == ANY else value
 
 
@@ -90,7 +90,7 @@ async def _follow(workspace: Workspace, session: Session, at: _Shown) -> None:
 
 
 async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage:
-    """The page asked for, or the last there is."""
+    """The page asked for, or the last one if there are fewer."""
     which, wanted = session.filter, at.page
     count = (await workspace.read(lambda connection: list_images(connection, which, limit=0))).total
     at.page = min(wanted, max(count - 1, 0) // PAGE)

@@ -27,7 +27,7 @@ Facts = list[tuple[str, Content]]
 
 @dataclass(frozen=True)
 class Background:
-    """What the store and the contour methods say about an annotation."""
+    """What the inspector shows of an annotation beside the annotation itself."""
 
     entries: Sequence[Entry]
     prediction: Prediction | None
@@ -37,7 +37,7 @@ class Background:
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
-    """The inspector."""
+    """Builds the inspector."""
     shown = session.client.gui.add_html("")
 
     async def redraw() -> None:
@@ -78,7 +78,7 @@ async def _background(workspace: Workspace, scene: Scene, annotation: Annotation
 
 
 def annotation_facts(annotation: Annotation, background: Background) -> Markup:
-    """An annotation's inspector."""
+    """The inspector's view of an annotation."""
     cap = annotation.cap
     flags = [
         element("span", word, class_="fr-badge fr-warn")
@@ -115,7 +115,7 @@ def _error_facts(pair: Pair | None) -> Facts:
 
 
 def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
-    """A prediction's inspector."""
+    """The inspector's view of a prediction."""
     facts: Facts = [
         ("Centre", _point(prediction.centre)),
         ("Whole", _shape(prediction.whole)),
@@ -128,7 +128,7 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
 
 
 def summary(session: Session) -> Markup:
-    """What the image on screen holds, while nothing is selected."""
+    """Counts of the image on screen, shown while nothing is selected."""
     assert session.contents is not None
     live = [a for a in session.annotations.values() if not a.deleted]
     real = [a for a in live if not a.cap.ignored]

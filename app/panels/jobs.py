@@ -1,4 +1,4 @@
-"""Long work: what runs, how far it is, and what came of it."""
+"""The jobs: buttons that start them, their progress and results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.choices import Only
 
 EVERY_S = 0.5
-"""How often a running job's progress is drawn."""
+"""Seconds between two drawings of a running job's progress."""
 EXPORTS: dict[str, Only] = {
     "Approved images": Only.approved,
     "Annotated images": Only.annotated,
@@ -24,7 +24,7 @@ EXPORTS: dict[str, Only] = {
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
-    """Buttons that start jobs, and the list of them."""
+    """Builds the buttons that start jobs, and the list of jobs."""
     gui = session.client.gui
     what = gui.add_dropdown("Export", tuple(EXPORTS), initial_value="Annotated images")
     export = gui.add_button("Export as COCO (zip)")
@@ -57,7 +57,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def job_list(jobs: list[Job]) -> Markup:
-    """The list, newest first."""
+    """The list of jobs, newest first."""
     if not jobs:
         return element("div", "Nothing has run yet.", class_="fr-jobs fr-quiet")
     return element("ul", *(_row(job) for job in jobs), class_="fr-jobs")

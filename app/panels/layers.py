@@ -1,4 +1,4 @@
-"""What is drawn over the photo, and how the photo looks."""
+"""The view: which layers are drawn over the photo, and its brightness and contrast."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from fairyring.app.panels.callbacks import Redraw, person_did
 
 
 def build(_workspace: Workspace, session: Session) -> Redraw:
-    """Check boxes for the layers, sliders for the photo."""
+    """Builds check boxes for the layers and sliders for the photo."""
     gui = session.client.gui
     boxes = {
         layer.name: gui.add_checkbox(f"{layer.key}  {layer.words}", layer.shown, hint=f"Key {layer.key}")

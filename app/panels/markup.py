@@ -36,7 +36,7 @@ def element(tag: str, *children: Content, **attributes: str | float | bool | Non
 
 
 def join(parts: tuple[Content, ...] | list[Markup]) -> Markup:
-    """Several pieces one after the other."""
+    """Joins several pieces one after the other."""
     return Markup("".join(_text(part) for part in parts))
 
 

@@ -1,4 +1,4 @@
-"""Predictions of the network from the panel: which weights, and a button for one image and for all."""
+"""Predicting from the panel: the weights, and buttons for one image and for all."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from fairyring.storage.project import Project
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
-    """The weights that will be used, and the two buttons."""
+    """Builds the line that names the weights, and the two buttons."""
     gui = session.client.gui
     shown = gui.add_html("")
     one = gui.add_button("Predict this image")

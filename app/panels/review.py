@@ -34,7 +34,7 @@ assert {sort for sort, _ in ORDERS.values()} <= set(get_args(ComparisonSort))
 
 @dataclass(frozen=True)
 class Review:
-    """What the store knows, in the order asked for."""
+    """The comparisons of the latest run, in the order asked for."""
 
     run: Run | None
     rows: list[ComparisonRow]
@@ -43,7 +43,7 @@ class Review:
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
-    """The review of the latest run."""
+    """Builds the review of the latest run."""
     gui = session.client.gui
     order = gui.add_dropdown("Order", tuple(ORDERS))
     shown = gui.add_html("")

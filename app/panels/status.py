@@ -1,4 +1,4 @@
-"""The top of the panel: which image, which run, and who. Whether all is saved, the editor itself says."""
+"""The panel's header: the image, the run and the user. The editor itself shows whether all is saved."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STATUS_OF_WORD: dict[str, Status] = {word: status for status, word in STATUS_WOR
 
 
 def build(_workspace: Workspace, session: Session) -> Redraw:
-    """The header."""
+    """Builds the header."""
     shown = session.client.gui.add_html("")
 
     async def redraw() -> None:
@@ -24,7 +24,7 @@ def build(_workspace: Workspace, session: Session) -> Redraw:
 
 
 def header(session: Session) -> Markup:
-    """The header of a tab as it stands."""
+    """The header of a tab as it is now."""
     return element(
         "header",
         element("div", *_image_line(session), class_="fr-line"),
@@ -64,7 +64,7 @@ def _person_line(session: Session) -> list[Markup]:
 
 
 def run_badge(run: Run) -> Markup:
-    """A run's name; one that only imitates a network is called that plainly."""
+    """A run's name; simulated predictions are called so."""
     if run.kind == "simulated":
         warning = (
             "These predictions are true masks distorted by a noise model; no network has seen the photo."

@@ -15,7 +15,7 @@ COMMANDS = ("undo", "redo", "fit", "accept_all", "done", "help")
 
 
 def build(workspace: Workspace, session: Session) -> None:
-    """The toolbar, and the buttons for the status of the image."""
+    """Builds the toolbar, and the buttons for the status of the image."""
     gui = session.client.gui
     gui.add_html(toolbar().html)
     status = gui.add_button_group("Set status", tuple(word.capitalize() for word in STATUS_OF_WORD))
@@ -28,7 +28,7 @@ def build(workspace: Workspace, session: Session) -> None:
 
 
 def toolbar() -> Markup:
-    """Tools above, commands below."""
+    """The toolbar: tools above, commands below."""
     return element(
         "div",
         element("div", *map(tool_button, TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"),

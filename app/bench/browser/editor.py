@@ -24,7 +24,7 @@ from fairyring.app.bench.timing import Row, p95_row
 from fairyring.storage.images import ImageFilter, list_images
 
 Ids = dict[str, int]
-"""Numbers of the images by file name."""
+"""Image numbers by file name."""
 SIZES = {"1280 × 720": (1280, 720, 100), "4000 × 3000": (4000, 3000, 400)}
 """Width, height, and the target for a change of images in ms."""
 CROWDS = {
@@ -35,7 +35,7 @@ CROWDS = {
 
 
 def editor_rows(*, quick: bool = False) -> list[Row]:
-    """The table: pointer to drawn, release to saved, move to fit, image to image."""
+    """Measures the editor: pointer to drawn, release to saved, move to fit, image to image."""
     moves, edits, switches = (10, 2, 1) if quick else (200, 50, 12)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as name, chromium() as browser:
         folder = Path(name)
@@ -53,7 +53,7 @@ def editor_rows(*, quick: bool = False) -> list[Row]:
 
 
 def _album(size: str, switches: int) -> list[Bed]:
-    """Beds to leaf through, then three times as many to jump about in."""
+    """Names of the beds to leaf through, then three times as many to jump about in."""
     width, height, _ = SIZES[size]
     return [
         Bed(name=f"{width}_{seed:02}.jpg", width=width, height=height, caps=100, vertices=40, seed=seed)

@@ -13,12 +13,12 @@ from fairyring.app.bench.serving import Server
 
 VIEWPORT: ViewportSize = {"width": 1500, "height": 900}
 LOOK_MS = 600
-"""How long somebody looks at an image before going on to the next: time to fetch that in advance."""
+"""How long somebody looks at an image before the next; meanwhile that is fetched in advance."""
 
 
 @contextmanager
 def measured_tab(browser: Browser, server: Server) -> Iterator[Tab]:
-    """A tab that has entered the server's page."""
+    """Opens the server's page in a tab."""
     page = browser.new_page(viewport=VIEWPORT)
     page.add_init_script(stopwatch.SCRIPT)
     tab = Tab(page)
@@ -30,7 +30,7 @@ def measured_tab(browser: Browser, server: Server) -> Iterator[Tab]:
 
 
 def leaf(tab: Tab) -> float:
-    """Milliseconds from the press of the key to the next image with its caps."""
+    """Presses the key for the next image; milliseconds until that stands there with its caps."""
     tab.page.wait_for_timeout(LOOK_MS)
     stopwatch.start(tab)
     tab.press("n")
@@ -38,7 +38,7 @@ def leaf(tab: Tab) -> float:
 
 
 def jump(tab: Tab, image: int) -> float:
-    """Milliseconds to an image that nobody could expect."""
+    """Opens an image that was not fetched in advance; milliseconds until it stands there."""
     tab.page.wait_for_timeout(LOOK_MS)
     stopwatch.start(tab)
     asked = stopwatch.ask_for(tab, image)

@@ -75,19 +75,21 @@ def start(tab: Tab) -> None:
 
 
 def frames(tab: Tab, kind: str) -> tuple[list[float], list[float]]:
-    """Of every frame that a ``kind`` of event caused: from the event to the end of the drawing, and the
-    drawing alone; ms."""
+    """Milliseconds of every frame that a ``kind`` of event caused.
+
+    From the event to the end of the drawing, and the drawing alone.
+    """
     timings = [t for t in tab.page.evaluate("() => fairyring.timings") if t["kind"] == kind]
     return [t["drawn"] - t["event"] for t in timings], [t["draw_ms"] for t in timings]
 
 
 def laps(tab: Tab, name: str) -> list[float]:
-    """From a release to its acknowledgement ("saved"), from a move to its fit or its vertex on screen; ms."""
+    """Milliseconds of one kind of lap: from a release to its acknowledgement, from a move to its drawing."""
     return tab.page.evaluate("name => stopwatch.laps[name]", name)
 
 
 def ask_for(tab: Tab, image: int) -> float:
-    """Asks for an image as a link in the panel does; returns when, by the page's clock."""
+    """Asks for an image as a link in the panel does; returns the time, by the page's clock."""
     return tab.page.evaluate(
         """image => {
             const link = document.createElement("a");
@@ -103,18 +105,18 @@ def ask_for(tab: Tab, image: int) -> float:
 
 
 def key_pressed(tab: Tab) -> float:
-    """When a key was pressed last, by the page's clock."""
+    """The time at which a key was pressed last, by the page's clock."""
     return tab.page.evaluate("() => stopwatch.last.keydown")
 
 
 def shown(tab: Tab) -> float:
-    """Waits for the image asked for and returns when it stood there with its caps, by the page's clock."""
+    """Waits for the image asked for; returns the time at which its caps were drawn, by the page's clock."""
     tab.wait_for("fairyring.timings.some(({ kind }) => kind === 'switch')")
     return tab.page.evaluate("() => fairyring.timings.findLast(({ kind }) => kind === 'switch').drawn")
 
 
 def photo_alone(tab: Tab) -> float:
-    """Milliseconds that a bare fetch and decoding of the photo on screen takes."""
+    """Fetches and decodes the photo on screen without the editor; milliseconds."""
     return tab.page.evaluate(
         """async () => {
             const { id, sha256 } = fairyring.state.image;

@@ -50,7 +50,7 @@ class Tab:
         self.page.wait_for_function(f"() => Boolean({condition})", timeout=WAIT_MS)
 
     def state(self, what: str) -> Any:
-        """Of the editor: shapes, predictions, selection, image, waiting, connection or tool."""
+        """Part of the editor's state: shapes, predictions, selection, image, waiting, connection or tool."""
         return self.page.evaluate(f"() => JSON.parse(JSON.stringify(window.fairyring.state.{what} ?? null))")
 
     def screen(self, point: Point) -> Point:

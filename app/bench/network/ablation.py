@@ -23,7 +23,7 @@ from fairyring.model.train.recipe import Recipe, checked, read_recipe
 
 PAPER_GRIDS = (40, 36, 24, 16, 12)
 WINDOWS = (2, 1)
-"""Of points-NMS; 1 is none."""
+"""Window of points-NMS in grid cells; 1 means no points-NMS."""
 PAPER_SOLOV2 = {"AP": 0.9028}
 
 

@@ -63,7 +63,7 @@ def _row(stage: str, seconds: float, reference: float, caps: int) -> dict[str, A
 
 
 def timed(work: Callable[[], object], device: torch.device) -> float:
-    """Seconds, median of ROUNDS after WARM_UP; a GPU is waited for."""
+    """Median seconds of ROUNDS calls, after WARM_UP ones that do not count; waits for a GPU to finish."""
     times = []
     for _ in range(WARM_UP + ROUNDS):
         _wait(device)
@@ -92,7 +92,7 @@ def _centres(found: list[Detection], photo: NDArray[np.uint8]) -> object:
 
 
 def _storing(photos: LabelledPhotos, found: list[Detection]) -> float:
-    """Seconds of one transaction, median."""
+    """Median seconds of one transaction that stores predictions."""
     with tempfile.TemporaryDirectory() as folder, create_project(Path(folder) / "project") as project:
         import_paths(project, [photos.photos[0]])
         with project.read() as connection:
