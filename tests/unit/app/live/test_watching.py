@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fairyring.app.protocol import Changed, Predicted, Show
-from fairyring.storage.importing.run import import_paths
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import Project, create_project, open_project
