@@ -78,9 +78,9 @@ class Jobs:
         return iter(tuple(self._jobs))
 
     @property
-    def running(self) -> bool:
-        """Whether any job is still at work."""
-        return any(job.state == "running" for job in self._jobs)
+    def running(self) -> list[Job]:
+        """The jobs that are still at work, or wait for their turn."""
+        return [job for job in self._jobs if job.state == "running"]
 
     def start(
         self, title: str, work: Callable[[Progress], Result], *, user: str, finished: Callable[[Job], None]

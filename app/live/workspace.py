@@ -46,7 +46,11 @@ class Workspace:
             tab.refresh(*parts)
 
     def start_job(self, session: Session, title: str, work: Callable[[Progress], Result]) -> None:
-        """Starts long work for the person at a tab, who is told when it has ended."""
+        """Starts long work for the person at a tab, told when it has ended; the same work only once."""
+        same = next((job for job in self.jobs.running if job.title == title), None)
+        if same is not None:
+            session.notify(f"{title}: at work already, started by {same.user}.")
+            return
 
         def finished(job: Job) -> None:
             session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")

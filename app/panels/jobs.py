@@ -29,7 +29,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     what = gui.add_dropdown("Export", tuple(EXPORTS), initial_value="Annotated images")
     export = gui.add_button("Export as COCO (zip)")
     compare = gui.add_button("Compare every image with its predictions")
-    cancel = gui.add_button("Cancel what is running", visible=False)
+    cancel = gui.add_button("Cancel what I started", visible=False)
     shown = gui.add_html("")
 
     async def start_export() -> None:
@@ -39,21 +39,26 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     async def start_comparison() -> None:
         workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))
 
-    async def cancel_all() -> None:
-        for job in workspace.jobs:
+    async def cancel_own() -> None:
+        for job in jobs_of(workspace, session):
             job.cancel()
 
     export.on_click(person_did(session, start_export))
     compare.on_click(person_did(session, start_comparison))
-    cancel.on_click(person_did(session, cancel_all))
+    cancel.on_click(person_did(session, cancel_own))
 
     async def redraw() -> None:
         shown.content = job_list(list(workspace.jobs)).html
-        cancel.visible = workspace.jobs.running
+        cancel.visible = bool(jobs_of(workspace, session))
         if workspace.jobs.running:
             asyncio.get_running_loop().call_later(EVERY_S, session.refresh, "jobs")
 
     return redraw
+
+
+def jobs_of(workspace: Workspace, session: Session) -> list[Job]:
+    """What the person at a tab has started and can cancel."""
+    return [job for job in workspace.jobs.running if job.user == session.user]
 
 
 def job_list(jobs: list[Job]) -> Markup:
@@ -66,7 +71,7 @@ def job_list(jobs: list[Job]) -> Markup:
 def _row(job: Job) -> Markup:
     head = element(
         "div",
-        element("strong", job.title, class_="fr-ellipsis"),
+        element("strong", job.title, class_="fr-ellipsis", title=f"{job.title}, started by {job.user}"),
         element("span", job.state, class_=f"fr-badge fr-{job.state}"),
         class_="fr-line",
     )

@@ -65,7 +65,7 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     tab.press("n")
     tab.wait_for("window.fairyring.state.image.file_name === 'bed_1.png'")
     tab.wait_for("window.fairyring.state.predictions.length > 0")
-    tab.page.get_by_role("button", name="Cancel what is running").click()
+    tab.page.get_by_role("button", name="Cancel what I started").click()
     tab.page.get_by_text("what was done so far is kept").first.wait_for()
     with open_project(project) as opened, opened.read() as connection:
         every = [load_contents(connection, i) for i in list_ids(connection, ImageFilter())]

@@ -263,7 +263,7 @@ def test_a_button_predicts_every_image_until_it_is_cancelled(
         tab.expect(Show)
         tab.panel.set("Predict every image", True)
         until(lambda: "Predicting bed_2" in tab.panel.html, "progress")
-        tab.panel.set("Cancel what is running", True)
+        tab.panel.set("Cancel what I started", True)
         assert "Cancelled" in tab.expect(Notice).text
     with project.read() as connection:
         runs = {i: load_contents(connection, i).run for i in ids}
