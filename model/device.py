@@ -1,4 +1,4 @@
-"""Which device to compute on."""
+"""The devices that torch computes on."""
 
 from __future__ import annotations
 

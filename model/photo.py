@@ -34,7 +34,7 @@ BITS = (8, 10, 12, 14, 16)
 """Depths that cameras write into 16-bit files."""
 
 Pixels = NDArray[np.uint8]
-"""(height, width, 3), BGR."""
+"""A photo's pixels: (height, width, 3) uint8, BGR."""
 
 
 class PhotoError(FairyringError):
@@ -45,12 +45,12 @@ class PhotoInfo(Struct, frozen=True, kw_only=True):
     """A photo that decodes completely."""
 
     width: int
-    """Upright, as all coordinates are."""
+    """Width of the upright photo, pixels, as all coordinates are."""
     height: int
     orientation: int
-    """EXIF, 1 to 8, as it is in the file; from 5 on the file's rows are the upright photo's columns."""
+    """EXIF orientation in the file, 1 to 8; from 5 on the file's rows are the upright photo's columns."""
     sha256: str
-    """Of the file."""
+    """SHA-256 of the file."""
 
 
 def probe(path: Path | str, *, max_pixels: int = MAX_PIXELS) -> PhotoInfo:

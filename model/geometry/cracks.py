@@ -23,7 +23,7 @@ INSIDE = np.array([[0, 0], [-1, 0], [-1, -1], [0, -1]])
 """x, y of the covered pixel beside a crack, relative to the lattice point where the crack starts."""
 SOUTH, NORTH = 1, 3
 MOST_CRACKS = 400_000
-"""A mask with more is noise, or larger than any cap."""
+"""Most cracks of a mask; one with more is noise, or larger than any cap."""
 
 
 @dataclass(frozen=True)

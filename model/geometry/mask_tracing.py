@@ -20,25 +20,25 @@ from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import GeometryError, Outline, Points, part_of_points, without_repeats
 
 TOLERANCE = 0.5
-"""px; how far a smooth outline's vertices may first lie from the midpoints between its edges."""
+"""How far a first smooth outline may lie from the midpoints of the mask's edges, pixels."""
 ROUNDS = 4
 """Attempts at a smooth outline before the pixels' edges are taken."""
 GRID = 25
 """Vertices a pixel of a smooth outline: no multiple of 1/25 lies where the rasteriser, which works in fifths,
 rounds one way or the other by the last bit."""
 SMALL = 8
-"""Pixels up to which a piece is drawn by its pixels' edges: a fit to so little is worth nothing."""
+"""A piece of at most so many pixels follows its pixels' edges: it is too small to fit."""
 
 MANY = 20
-"""Pieces and holes; a mask of more is noisy, and its specks are left out."""
+"""A mask of more pieces and holes than this is noisy, and its specks are left out."""
 SPECK = 4
-"""Pixels below which a piece or a hole of a noisy mask is a speck."""
+"""A piece or a hole of a noisy mask with fewer pixels than this is a speck."""
 SPECK_SHARE = 0.001
-"""Of the largest piece: likewise."""
+"""A piece or a hole of a noisy mask with less than this share of the largest piece is a speck, too."""
 MOST_LOOPS = 500
-"""Pieces and holes that are left; more are refused."""
+"""Most pieces and holes that may be left; a mask of more is refused."""
 MOST_BOXED = 1 << 26
-"""Pixels of the boxes around all pieces together."""
+"""Most pixels in the boxes around all pieces together."""
 
 
 def outline_of_mask(mask: Mask) -> Outline:

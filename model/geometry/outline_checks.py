@@ -39,18 +39,18 @@ from fairyring.model.geometry.winding import FillRule, covered_parts
 
 MAX_PARTS = 500
 MAX_POINTS = 10_000
-"""Of one part."""
+"""Most points of one part."""
 MAX_POINTS_IN_ALL = 20_000
 MAX_RIM = 1_000_000
-"""Pixels, of all parts together: the rasteriser's time and memory go with it."""
+"""Longest rim of all parts together, pixels: the rasteriser's time and memory go with it."""
 REACH = 4
 """How many image widths and heights a point may lie outside the image."""
 LEAST_AREA = 1e-3
-"""px²; below this a polygon has none."""
+"""A polygon of less area than this, px², counts as having none."""
 SPECK = 0.005
 """Share of what a polygon that crosses itself covers, up to which a lobe or a hole is the pen's slip."""
 ROUNDING = 1e-6
-"""px²; areas that differ by less are the same."""
+"""Areas that differ by less than this, px², count as the same."""
 
 NUMBERS = {int, float}
 """The types a coordinate may have; bool, which Python counts among the integers, is not one."""
@@ -116,7 +116,7 @@ def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
 
 @dataclass
 class _Effort:
-    """What the parts of an outline have taken so far."""
+    """How much checking the parts of an outline has taken so far."""
 
     pairs: int = 0
     """Pairs of edges that were compared."""

@@ -20,7 +20,7 @@ Mask = NDArray[np.uint8]
 Rle = dict[str, Any]
 
 coco: Any = pycocotools_mask
-"""Untyped: its stubs know neither lists of polygons nor counts as text."""
+"""pycocotools' masks, untyped: their stubs know neither lists of polygons nor counts as text."""
 
 
 def rle_of_outline(outline: Outline, *, height: int, width: int) -> Rle:
@@ -53,7 +53,7 @@ def mask_of_rle(rle: Rle) -> Mask:
 
 
 def area_of_rle(rle: Rle) -> int:
-    """Number of pixels."""
+    """Number of pixels that an RLE covers."""
     return int(coco.area(rle))
 
 

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 from fairyring.model.geometry.shapes import GeometryError
 
 MAX_PIXELS = 1 << 30
-"""Of the image an RLE says it is of: a size in a file costs nothing to write."""
+"""Most pixels of the image that an RLE says it is of: a size in a file costs nothing to write."""
 MOST_BOXED = 1 << 25
-"""Pixels of the box around what is covered; nothing larger is decoded."""
+"""Most pixels of the box around what is covered; nothing larger is decoded."""
 MOST_COUNTS = 500_000
-"""A mask of more is noise."""
+"""Most counts; a mask of more is noise."""
 MOST_TEXT = 4 * MOST_COUNTS
-"""Characters of compressed counts; a run of usual length takes one or two."""
+"""Most characters of compressed counts; a usual count takes one or two."""
 MAX_SHIFT = 60
-"""Bits of one count, far more than any image needs."""
+"""Most bits of one count, far more than any image needs."""
 
 
 def checked_counts(rle: Any) -> tuple[int, int, list[int]]:

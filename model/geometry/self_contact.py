@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from fairyring.model.geometry.shapes import GeometryError, Points
 
 MOST_PAIRS = 1_000_000
-"""Pairs of edges that may have to be compared: any two of 1400. Of a rim's, few lie beside each other."""
+"""Most pairs of edges that are compared: any two of 1400. Of a rim's, few lie beside each other."""
 MOST_CROSSINGS = 1000
-"""An outline that crosses itself more often is not meant as a cap."""
+"""Most crossings; an outline that crosses itself more often is not meant as a cap."""
 PAIRS_AT_ONCE = 1 << 14
 ON_LINE = 1e-9
-"""Pixels; a point nearer to a line lies on it, as where lines cross is known no better."""
+"""A point nearer to a line than this, pixels, lies on it: where lines cross is known no better."""
 
 Plane = NDArray[np.complexfloating[Any, Any]]
 """(n,) vectors: x and y as real and imaginary part."""

@@ -26,7 +26,7 @@ from fairyring.model.errors import FairyringError
 
 Outline = list[list[float]]
 Points = NDArray[np.float64]
-"""(n, 2): x, y."""
+"""Points as an array (n, 2): x, y."""
 Centre = tuple[float, float]
 
 
@@ -59,7 +59,7 @@ class Polygon(Struct, frozen=True, tag="polygon", tag_field="kind"):
 
 
 Shape = Circle | Ellipse
-"""A whole outline: also where the cap is hidden."""
+"""A whole outline, which goes on where the cap is hidden."""
 Mark = Circle | Ellipse | Polygon
 """What a person placed for the centre."""
 
@@ -121,12 +121,12 @@ def polygon_of_shape(shape: Circle | Ellipse, *, chord_error: float = 0.1) -> li
 
 
 def centre_of_shape(shape: Shape) -> Centre:
-    """Its middle."""
+    """The middle of a circle or an ellipse."""
     return shape.cx, shape.cy
 
 
 def diameter_of_shape(shape: Shape) -> float:
-    """Of a circle its diameter; of an ellipse that of the circle of the same area."""
+    """Diameter of a circle, or of the circle of an ellipse's area, pixels."""
     return 2 * (shape.r if isinstance(shape, Circle) else math.sqrt(shape.a * shape.b))
 
 

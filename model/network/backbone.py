@@ -11,16 +11,16 @@ from fairyring.model.network import lite0, resnet
 from fairyring.model.network.config import Backbone
 
 Normalisation = tuple[tuple[float, float, float], tuple[float, float, float]]
-"""Mean and standard deviation of RGB in [0, 1]."""
+"""Mean and standard deviation of each RGB channel, of values in [0, 1]."""
 
 
 def build_backbone(name: Backbone) -> lite0.EfficientNetLite0 | resnet.ResNet:
-    """(B, 3, h, w) → [C2, C3, C4, C5]; ``channels`` of the module says how many channels each has."""
+    """The backbone of this name: (B, 3, h, w) → [C2, C3, C4, C5], with ``channels`` channels each."""
     return lite0.EfficientNetLite0() if name == "lite0" else resnet.ResNet(name)
 
 
 def normalisation_of(name: Backbone) -> Normalisation:
-    """What the backbone's ImageNet weights expect."""
+    """The normalisation of RGB values that the backbone's ImageNet weights expect."""
     return (lite0.MEAN, lite0.STD) if name == "lite0" else (resnet.MEAN, resnet.STD)
 
 

@@ -17,7 +17,7 @@ def conv_norm_relu(inputs: int, outputs: int, *, kernel: int = 3) -> nn.Sequenti
 
 
 def start_small(module: nn.Module) -> None:
-    """Draws the weights of every convolution from a normal distribution of 0.01, as SOLOv2 does."""
+    """Samples the weights of every convolution from a normal distribution of σ 0.01, as SOLOv2 does."""
     for part in module.modules():
         if isinstance(part, nn.Conv2d | nn.Linear):
             nn.init.normal_(part.weight, std=0.01)

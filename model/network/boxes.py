@@ -7,13 +7,13 @@ from torch import Tensor
 from torch.nn import functional as F
 
 MARGIN = 0.1
-"""Of a window around a mask's box, on every side."""
+"""Margin of a window around a mask's box on every side, as a share of the box."""
 GAP = 4
-"""Cells between two parts of a mask beyond which the lesser one is a speck that the network left behind."""
+"""Empty cells between two parts of a mask beyond which the lesser one does not count to its box."""
 
 
 def boxes_of(masks: Tensor) -> Tensor:
-    """(K, h, w) bool, none empty → (K, 4) float, in the masks' cells."""
+    """Boxes of K masks (K, h, w) bool, none empty → (K, 4) float, in the masks' cells."""
     columns, rows = masks.any(1).float(), masks.any(2).float()
     left, top = columns.argmax(1), rows.argmax(1)
     right, bottom = masks.shape[2] - columns.flip(1).argmax(1), masks.shape[1] - rows.flip(1).argmax(1)

@@ -25,5 +25,5 @@ class CategoryHead(nn.Module):
         nn.init.constant_(self.logit.bias, -math.log((1 - PRIOR) / PRIOR))  # pyright: ignore
 
     def forward(self, cells: Tensor) -> Tensor:
-        """(B, inputs, rows, columns) → (B, rows, columns)."""
+        """(B, inputs, rows, columns) → logits (B, rows, columns)."""
         return self.logit(self.tower(cells)).squeeze(1)

@@ -1,4 +1,4 @@
-"""What a network is made of: everything that must be known to build it and to load weights into it."""
+"""Everything that must be known to build a network and to load weights into it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PointRend = Literal["instance", "semantic", "off"]
 
 LEVELS = 5
 GROUPS = 32
-"""Of the heads' group norms: their channels are multiples of it."""
+"""Groups of the heads' group norms; their channels are multiples of it."""
 FRAME = 1280
 """Photo pixels that the paper's images are wide: grids count cells along it, coordinates run over it."""
 
@@ -20,11 +20,11 @@ FULL_RANGES = ((1, 96), (48, 192), (96, 384), (192, 768), (384, 2048))
 
 
 class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """The default is ``lite0``: light enough for a CPU."""
+    """Architecture of a network; the default is ``lite0``, light enough for a CPU."""
 
     backbone: Backbone = "lite0"
     reduction: int = 2
-    """Photo pixels a side of one network-input pixel; PointRend still draws the edge in photo pixels."""
+    """Photo pixels a side of one network-input pixel; PointRend still refines edges to photo pixels."""
     fpn_channels: int = 128
     head_channels: int = 128
     head_convs: int = 2
@@ -39,7 +39,7 @@ class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     """Reading A refines each instance, reading B the mask feature; ``off`` is SOLOv2."""
     point_channels: int = 128
     detail_channels: int = 16
-    """Of the photo itself at stride 2, which the points see besides P2 and P4; 0 for the paper's points."""
+    """Channels computed from the photo itself for PointRend's points, at stride 2; 0 as in the paper."""
 
     def cell(self, level: int) -> float:
         """Side of a cell of this level in photo pixels."""
@@ -79,4 +79,4 @@ SIZES: dict[str, NetworkConfig] = {
         detail_channels=0,
     ),
 }
-"""By name: the default, and the paper's network with a small and with its own backbone."""
+"""Configurations by name: the default, and the paper's network with a small and with its own backbone."""

@@ -1,4 +1,4 @@
-"""From the network's outputs of one input to its instances: points-NMS, masks, their scores, matrix NMS."""
+"""Decodes the network's outputs for one input: points-NMS, masks, mask scores, matrix NMS."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ class DecodeConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     """How instances are chosen; the reference's figures, but for the number kept."""
 
     window: int = 2
-    """Of points-NMS, cells; 1 is none."""
+    """Window of points-NMS, grid cells; 1 means none."""
     least_cell_score: float = 0.1
     most_before_nms: int = 500
     least_score: float = 0.05
     most: int = 500
-    """Instances an image: beds hold 250 caps and more."""
+    """Most instances of an image: beds hold 250 caps and more."""
 
 
 class Instances(NamedTuple):

@@ -14,9 +14,9 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 CHANNELS = (24, 40, 112, 320)
-"""Of C2…C5, at strides 4, 8, 16 and 32."""
+"""Channels of C2…C5, at strides 4, 8, 16 and 32."""
 MEAN, STD = (127 / 255, 127 / 255, 127 / 255), (128 / 255, 128 / 255, 128 / 255)
-"""Of the RGB values in [0, 1] that the ImageNet weights were trained on."""
+"""Mean and standard deviation of the RGB values, in [0, 1], that the ImageNet weights were trained on."""
 
 STAGES = (
     # blocks, kernel, stride, expansion, inputs, outputs

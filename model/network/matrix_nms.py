@@ -1,4 +1,4 @@
-"""Points-NMS and matrix NMS (SOLOv2, Wang et al., NeurIPS 2020): one answer a cap, without loops."""
+"""Non-maximum suppression without loops: points-NMS and matrix NMS (SOLOv2, Wang et al., NeurIPS 2020)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The whole loss (Eq. 1, and the points'): what is learnt from a batch of inputs and their caps."""
+"""The whole loss of a batch of inputs and their caps: Eq. 1, and the loss of the points."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fairyring.model.network.reach import middles_of, reach_of, within_reach
 from fairyring.model.network.targets import IGNORED
 
 POINTS = 196
-"""Drawn on each cap (PointRend's training default)."""
+"""Points sampled on each cap (PointRend's training default)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +31,7 @@ class Caps:
     targets: Tensor
     """(n, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
     cells: list[Tensor]
-    """Of each level (rows, columns) int64: see ``model.network.targets``."""
+    """For each level (rows, columns) int64, which cap each cell learns: see ``model.network.targets``."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class Batch:
     caps: list[Caps]
 
     def to(self, device: torch.device) -> Batch:
-        """The same on another device."""
+        """The same batch on another device."""
         return Batch(
             photos=self.photos.to(device),
             origins=self.origins.to(device),
@@ -61,7 +61,7 @@ class Batch:
 
 
 class Losses(NamedTuple):
-    """Scalars; each is 0 where nothing of its kind is in the batch."""
+    """The terms of the loss, scalars; each is 0 where nothing of its kind is in the batch."""
 
     category: Tensor
     mask: Tensor
@@ -81,7 +81,7 @@ class _Positives(NamedTuple):
     images: Tensor
     """(P,), rising."""
     caps: Tensor
-    """(P,): place of the cap among all caps of the batch."""
+    """(P,): index of the cap among all caps of the batch."""
     middles: Tensor
     """(P, 2): x, y of the cells' middles, as shares of the input's width and height."""
     reach: Tensor
@@ -89,7 +89,7 @@ class _Positives(NamedTuple):
 
 
 def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
-    """Of one forward pass over ``batch.photos``."""
+    """The losses of one forward pass over ``batch.photos``."""
     positives = _positives(outputs, batch, network.config)
     category = _category_loss(outputs, batch) / (len(positives.caps) + 1)
     targets = torch.cat([caps.targets for caps in batch.caps])
@@ -140,7 +140,7 @@ def _category_loss(outputs: Outputs, batch: Batch) -> Tensor:
 def _instance_points(
     network: PRSOLOv2, outputs: Outputs, batch: Batch, positives: _Positives, logits: Tensor
 ) -> Tensor:
-    """Reading A, on one random positive cell a cap."""
+    """Points of reading A, on one random positive cell a cap."""
     assert network.point_head is not None
     assert outputs.point_maps is not None
     device = logits.device
@@ -171,7 +171,7 @@ def _instance_points(
 
 
 def _semantic_points(outputs: Outputs, batch: Batch) -> Tensor:
-    """Reading B: whether a point is on any cap."""
+    """Points of reading B: whether each is on any cap."""
     assert outputs.sharp is not None
     any_cap = torch.stack(
         [

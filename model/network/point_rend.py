@@ -1,4 +1,4 @@
-"""PointRend, reading A: a small network decides, point by point, where the edge of one cap runs.
+"""PointRend, reading A: a small network decides for single points whether they are on a cap.
 
 Kirillov et al., PointRend (CVPR 2020). A point sees P2 and P4 (the paper's 2nd and 4th layer), the coarse
 logit, and which cap is asked about: the mask feature there times the cap's kernel, and where in the cap's
@@ -23,12 +23,12 @@ DETAIL_STRIDE = 2
 
 
 class PointMaps(NamedTuple):
-    """What points of an image read; made once an image."""
+    """Feature maps that the points of an image are sampled from; made once an image."""
 
     fine: Tensor
     """(B, point channels, h, w): P2 after its share of the first layer."""
     semantic: Tensor
-    """The same of P4."""
+    """(B, point channels, h, w): P4 after its share of the first layer."""
     detail: Tensor | None
     """(B, detail channels, H / 2, W / 2) of an input of H × W photo pixels."""
     feature: Tensor
@@ -41,13 +41,13 @@ class Queries(NamedTuple):
     points: Tensor
     """(P, 2): x, y, photo pixels."""
     owners: Tensor
-    """(P,): the image of each."""
+    """(P,): index of each point's image."""
     kernels: Tensor
-    """(P, E): of the cap that is asked about."""
+    """(P, E): kernel of the cap that is asked about."""
     boxes: Tensor
     """(P, 4): x, y, width, height of that cap, photo pixels."""
     coarse: Tensor
-    """(P,): its logit there so far."""
+    """(P,): that cap's coarse logit at the point."""
 
 
 class Detail(nn.Module):
@@ -60,7 +60,7 @@ class Detail(nn.Module):
         self.second = nn.Conv2d(channels, channels, 3, padding=1)
 
     def forward(self, photos: Tensor) -> Tensor:
-        """See the class."""
+        """(B, 3, H, W) → (B, channels, H / 2, W / 2)."""
         return F.relu(self.second(F.relu(self.first(photos), inplace=True)), inplace=True)
 
 

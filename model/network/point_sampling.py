@@ -11,7 +11,7 @@ UNCERTAIN_SHARE = 0.75
 
 
 def sample_maps(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) -> Tensor:
-    """Bilinear: (M, C, h, w), (P,) map of each point, (P, 2) x, y in photo pixels → (P, C).
+    """Bilinear samples: (M, C, h, w), (P,) map of each point, (P, 2) x, y in photo pixels → (P, C).
 
     A map's pixel (i, j) has its middle at ((j + 0.5) · stride, (i + 0.5) · stride); beyond the outermost
     middles their values hold on.
@@ -37,16 +37,16 @@ def training_points(coarse: Tensor, boxes: Tensor, *, count: int, stride: float)
     """Points to train on, in each cap's box: (K, h, w) coarse logits, (K, 4) x, y, width, height → (K,
     count, 2).
 
-    PointRend (Kirillov et al., CVPR 2020): three times as many are drawn evenly, 75 % of the points are
-    those of them with the logit nearest 0, the rest are drawn evenly.
+    PointRend (Kirillov et al., CVPR 2020): three times as many are sampled evenly, 75 % of the points are
+    those of them with the logit nearest 0, the rest are sampled evenly.
     """
     caps = len(boxes)
-    drawn = torch.rand(caps, OVERSAMPLING * count, 2, device=coarse.device)
-    drawn = boxes[:, None, :2] + drawn * boxes[:, None, 2:]
-    owners = torch.arange(caps, device=coarse.device).repeat_interleave(drawn.shape[1])
-    logits = sample_maps(coarse[:, None], owners, drawn.reshape(-1, 2), stride=stride)
+    sampled = torch.rand(caps, OVERSAMPLING * count, 2, device=coarse.device)
+    sampled = boxes[:, None, :2] + sampled * boxes[:, None, 2:]
+    owners = torch.arange(caps, device=coarse.device).repeat_interleave(sampled.shape[1])
+    logits = sample_maps(coarse[:, None], owners, sampled.reshape(-1, 2), stride=stride)
     uncertain = int(UNCERTAIN_SHARE * count)
     order = logits.reshape(caps, -1).abs().topk(uncertain, dim=1, largest=False).indices
-    chosen = drawn.gather(1, order[..., None].expand(-1, -1, 2))
+    chosen = sampled.gather(1, order[..., None].expand(-1, -1, 2))
     rest = torch.rand(caps, count - uncertain, 2, device=coarse.device)
     return torch.cat([chosen, boxes[:, None, :2] + rest * boxes[:, None, 2:]], dim=1)

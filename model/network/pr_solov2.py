@@ -23,22 +23,22 @@ P4_LEVEL = 2
 
 
 class Outputs(NamedTuple):
-    """What the network says of a batch of B inputs."""
+    """The network's outputs for a batch of B inputs."""
 
     categories: list[Tensor]
-    """Of P2…P6 logits (B, rows, columns)."""
+    """Category logits (B, rows, columns) of each of P2…P6."""
     kernels: list[Tensor]
-    """Of P2…P6 (B, E, rows, columns)."""
+    """Kernels (B, E, rows, columns) of each of P2…P6."""
     feature: Tensor
-    """(B, E, h, w) at ``NetworkConfig.mask_stride``."""
+    """Mask feature (B, E, h, w) at ``NetworkConfig.mask_stride``."""
     point_maps: PointMaps | None
-    """With reading A alone."""
+    """Maps for the points of reading A; None without it."""
     sharp: SharpFeature | None
-    """With reading B alone."""
+    """The sharpened mask feature of reading B; None without it."""
 
 
 class PRSOLOv2(nn.Module):
-    """Inputs are (B, 3, H, W) RGB bytes; H and W must be multiples of ``config.multiple``."""
+    """The network: (B, 3, H, W) RGB bytes, H and W multiples of ``config.multiple`` → `Outputs`."""
 
     mean: Tensor
     std: Tensor

@@ -1,4 +1,4 @@
-"""How far from its grid cell a cap may lie: what a kernel says of pixels further away is not asked."""
+"""How far from its grid cell a cap may lie; a kernel's logits further away are ignored."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from torch import Tensor
 from fairyring.model.network.config import NetworkConfig
 
 REACH = 2 / 3
-"""Of the largest √(box area) of a level: half of it, the way from cell to mass centre, and some for long
-caps."""
+"""Reach as a share of a level's largest √(box area): half of that, the way from the cell to the mass centre,
+and some for long caps."""
 FAR = -20.0
-"""The logit of what cannot be part of a cap."""
+"""Logit of a pixel that is out of reach."""
 
 
 def reach_of(config: NetworkConfig, level: int) -> float:
-    """Photo pixels to each side of the middle of a cell of this level."""
+    """Reach of a level in photo pixels, to each side of a cell's middle."""
     return REACH * config.scale_ranges[level][1] * config.reduction
 
 
 def middles_of(held: Tensor) -> Tensor:
-    """Of the cells that are True: (rows, columns) → (n, 2), x and y as shares of the input's sides."""
+    """Middles of the cells that are True: (rows, columns) → (n, 2), x, y as shares of the input's sides."""
     rows, columns = held.nonzero().unbind(1)
     return torch.stack([(columns + 0.5) / held.shape[1], (rows + 0.5) / held.shape[0]], dim=1)
 

@@ -16,9 +16,9 @@ from fairyring.model.network.decode import Instances
 from fairyring.model.network.point_rend import PointHead, PointMaps, Queries
 
 POINTS_PER_SIDE = 8
-"""Points seen anew in each doubling, for each pixel of the window's side: 784 at 98 pixels, 2048 at 256."""
+"""Points computed anew in each doubling, for each pixel of the window's side."""
 LEAST_SCORE = 0.3
-"""Instances less sure are only enlarged: hardly any is a cap, and there are many."""
+"""Instances of a lower score are only enlarged: hardly any is a cap, and there are many."""
 WINDOWS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
 """Sides of windows in cells of the mask; instances of one side are refined together."""
 
@@ -28,7 +28,7 @@ class RefinedMask(NamedTuple):
 
     x: int
     y: int
-    """Of the window's first pixel; the window may reach beyond the photo."""
+    """Column x and row y of the window's first pixel; the window may reach beyond the photo."""
     logits: Tensor
     """(s, s); above 0 is cap."""
 
@@ -42,7 +42,7 @@ def refine(
     mask_stride: int,
     finest: int = 1,
 ) -> list[RefinedMask]:
-    """Every instance at photo pixels.
+    """Refines every instance to photo pixels.
 
     ``finest``: photo pixels a side of the finest points seen anew. From there on, and without a point head,
     logits are enlarged bilinearly, and so are those of instances whose score is below LEAST_SCORE.

@@ -18,7 +18,7 @@ from fairyring.model.network.point_sampling import sample_maps
 
 COARSEST_STRIDE, STEPS = 16, 2
 POINTS = 2048
-"""Replaced in each step, in each image."""
+"""How many points are replaced in each step, in each image."""
 
 
 class SharpFeature(NamedTuple):

@@ -13,7 +13,7 @@ EMPTY = -1
 IGNORED = -2
 
 Cells = NDArray[np.int64]
-"""(rows, columns): index of the cap a cell learns, EMPTY, or IGNORED where it learns nothing."""
+"""(rows, columns): index of the cap that each cell learns, EMPTY, or IGNORED where it learns nothing."""
 
 
 def grid_shape(config: NetworkConfig, level: int, *, height: int, width: int) -> tuple[int, int]:

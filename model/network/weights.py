@@ -34,7 +34,7 @@ class Weights:
     """A network as it was read from a file."""
 
     network: PRSOLOv2
-    """In evaluation mode, float32."""
+    """The network, in evaluation mode, float32."""
     digest: str
     """SHA-256 over the network and all tensors: what predictions are traced to."""
     card: dict[str, Any] = field(default_factory=dict)

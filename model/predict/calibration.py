@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 MOST_CERTAIN = 1e-6
 """Scores are kept this far from 0 and 1, whose log-odds are not finite."""
 PRIOR = 5.0
-"""Weight of leaving scores as they are, in detections: a few of them do not turn the line around."""
+"""Weight of the prior for unchanged scores, in detections, so that a few of them do not turn the line."""
 LEAST_SLOPE = 0.05
-"""Above 0, so that the order of scores stays."""
+"""Least slope of the line: above 0, so that the order of scores stays."""
 UNCHANGED = np.array([1.0, 0.0])
 """The slope and shift that leave scores as they are."""
 ACCURACY = 1e-9
@@ -22,7 +22,7 @@ Figures = NDArray[np.float64]
 
 
 class Calibration(NamedTuple):
-    """log-odds → slope · log-odds + shift."""
+    """A line through log-odds: slope · log-odds + shift."""
 
     slope: float = 1.0
     shift: float = 0.0
@@ -34,7 +34,7 @@ def calibrated(scores: Figures, line: Calibration) -> Figures:
 
 
 def uncalibrated(probability: float, line: Calibration) -> float:
-    """The score that is told as this probability; 0 for 0."""
+    """The raw score that ``calibrated`` turns into this probability; 0 for 0."""
     if probability <= 0:
         return 0.0
     odds = float(_log_odds(np.array(probability)))
@@ -42,7 +42,7 @@ def uncalibrated(probability: float, line: Calibration) -> float:
 
 
 def fit_calibration(scores: Figures, right: NDArray[np.bool_]) -> Calibration:
-    """The line by which (n,) scores say best how often detections like these are right, (n,).
+    """The most likely line for (n,) raw scores of detections, given which of them, (n,), are right.
 
     Largest likelihood with a normal prior about no change; with no detections at all nothing is changed.
     """
@@ -54,7 +54,7 @@ def fit_calibration(scores: Figures, right: NDArray[np.bool_]) -> Calibration:
 
 
 def _most_likely(x: Figures, sign: Figures, *, start: Figures, free: list[int]) -> Figures:
-    """Newton's steps, halved while they do not help: (slope, shift), of which only ``free`` move."""
+    """(slope, shift) by Newton's method, steps halved while they do not help; only ``free`` ones move."""
     inputs, line = np.stack([x, np.ones_like(x)]), start.copy()
 
     def cost(line: Figures) -> float:

@@ -1,4 +1,4 @@
-"""Outlines between the pixels: where the edge of a predicted cap runs by its logits."""
+"""Outlines with sub-pixel edges: the lines along which a predicted cap's logits are 0."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from fairyring.model.geometry.shapes import Outline, Points, part_of_points, sig
 from fairyring.model.predict.overlaps import LEAST_PART
 
 TOLERANCE = 0.2
-"""How far an outline may lie from the level line, pixels: it is given fewer vertices."""
+"""How far a simplified outline may lie from the level line, pixels."""
 LEAST_HOLE = 0.1
-"""Share of its part below which a hole is closed."""
+"""A hole of less than this share of its part is closed."""
 MOST_LOGIT = 6.0
-"""Logits beyond are as sure: clipped, so that the line between two pixels is not drawn to the surer one."""
+"""Logits are clipped to this: beyond, the line would move towards the surer of two pixels."""
 
 
 def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -> Outline:
@@ -53,7 +53,7 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
 
 
 def _box(inside: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """left, top, right, bottom of what is True: its columns are ``left : right``.
+    """Box around what is True, as left, top, right, bottom: its columns are ``left : right``.
 
     Of an array padded by 1, ``left : right + 2`` are those and one on either side.
     """

@@ -22,21 +22,21 @@ from fairyring.model.predict.overlaps import Window, distinct, resolve_overlaps
 from fairyring.model.predict.tiles import Tile, tiles_of
 
 SLACK = 8.0
-"""Pixels: two pieces that see a cap at a seam do not put its middle in the very same place."""
+"""By how many pixels two pieces may differ about the middle of a cap at their seam."""
 SAME = 0.5
-"""IoU from which two pieces have seen the same cap."""
+"""Least IoU of two pieces' detections of the same cap."""
 
 
 class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How photos are read."""
+    """Settings of a predictor."""
 
     decode: DecodeConfig = field(default_factory=DecodeConfig)
     least_score: float = 0.0
-    """Of a detection that is told, as it is told: calibrated."""
+    """Least calibrated score of a detection that is returned."""
     finest: int = 2
     """Photo pixels a side of the finest points that PointRend decides on: 1, 2, 4 …"""
     batch: int = 1
-    """Pieces of one size that go through the network together."""
+    """How many pieces of one size go through the network together."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,9 +44,9 @@ class Detection:
     """One cap as the network sees it."""
 
     score: float
-    """How likely it is to be a cap, and this one: 0 to 1."""
+    """Probability that this is a cap and the outline its own, 0 to 1."""
     outline: Outline
-    """Of what is visible, between the pixels."""
+    """Outline of what is visible, with sub-pixel edges."""
     rle: Rle
     """The pixels of the outline."""
 
@@ -58,7 +58,7 @@ class Seen:
     width: int
     height: int
     pieces: list[tuple[Tile, Outputs, int]]
-    """A piece of it, what the network said of a batch, and the piece's index in the batch."""
+    """Each piece of the photo, the network's outputs for its batch, and the piece's index in that batch."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,7 +67,7 @@ class Piece:
 
     tile: Tile
     scores: list[float]
-    """Raw, falling."""
+    """Raw scores, in falling order."""
     windows: list[Window]
 
 
@@ -86,7 +86,7 @@ class Predictor:
 
     @torch.inference_mode()
     def see(self, photos: Sequence[NDArray[np.uint8]]) -> list[Seen]:
-        """(height, width, 3) uint8 RGB photos → what the network says of each, ready for ``read``."""
+        """Runs the network on photos (height, width, 3) uint8 RGB; its outputs for each are for ``read``."""
         seen = [Seen(width=photo.shape[1], height=photo.shape[0], pieces=[]) for photo in photos]
         by_shape: dict[tuple[int, int], list[tuple[int, Tile]]] = {}
         for nth, photo in enumerate(photos):
@@ -134,7 +134,7 @@ class Predictor:
         return pieces
 
     def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
-        """Whose pixel is whose, and where the outlines run; the second half of ``read``."""
+        """Resolves overlaps and traces outlines; the second half of ``read``."""
         found = [
             (detection, nth)
             for nth, piece in enumerate(pieces)
@@ -155,7 +155,7 @@ class Predictor:
 
 
 def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
-    """The caps that a piece tells of a photo of so many pixels, with raw scores."""
+    """The detections of a piece of a photo of this size, with raw scores."""
     tile = piece.tile
     resolved = resolve_overlaps(piece.windows, piece.scores, width=tile.width, height=tile.height)
     for score, window in zip(piece.scores, resolved, strict=True):
@@ -169,14 +169,14 @@ def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
 
 
 def _distinct(instances: Instances) -> Instances:
-    """Those that are caps of their own; the others need not be refined."""
+    """The instances without duplicates, which need not be refined."""
     kept = distinct((instances.logits > 0).cpu().numpy(), instances.scores.tolist())
     chosen = torch.tensor(kept, dtype=torch.int64, device=instances.scores.device)
     return Instances(*(part[chosen] for part in instances))
 
 
 def _without_repeats(found: list[tuple[Detection, int]]) -> list[Detection]:
-    """Of detections in falling order of score, each with its piece, those no other piece told."""
+    """Drops detections that another piece has with a better score; given with their piece, scores falling."""
     rles = [detection.rle for detection, _ in found]
     overlaps, pieces = iou_matrix(rles, rles), np.array([piece for _, piece in found])
     kept: list[int] = []

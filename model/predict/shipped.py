@@ -6,4 +6,4 @@ from pathlib import Path
 
 SHIPPED = Path(__file__).parents[1] / "weights" / "lite0.safetensors"
 RECIPE = SHIPPED.with_suffix(".toml")
-"""How they were trained."""
+"""The recipe they were trained by."""

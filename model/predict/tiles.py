@@ -7,9 +7,9 @@ from itertools import pairwise
 from msgspec import Struct
 
 SIDE = 1280
-"""Photo pixels of a piece: as wide as the photos that the network is made for."""
+"""Largest width and height of a piece, photo pixels: as wide as the photos the network is made for."""
 OVERLAP = 256
-"""Of two pieces; caps up to this diameter are never cut."""
+"""How far two pieces overlap, photo pixels; caps up to this diameter are never cut."""
 
 
 class Tile(Struct, frozen=True, kw_only=True):
@@ -20,10 +20,10 @@ class Tile(Struct, frozen=True, kw_only=True):
     width: int
     height: int
     own: tuple[float, float, float, float]
-    """left, top, right, bottom. The own parts of all tiles fill the photo, edges going to the later one."""
+    """Left, top, right, bottom of its own part. Those of all tiles fill the photo, edges in the later one."""
 
     def owns(self, x: float, y: float, *, slack: float = 0.0) -> bool:
-        """Whether a cap about this point is this tile's, or no more than ``slack`` pixels from being so."""
+        """Whether a cap with this middle belongs to this tile, or would within ``slack`` pixels."""
         left, top, right, bottom = self.own
         return left - slack <= x < right + slack and top - slack <= y < bottom + slack
 

@@ -21,26 +21,26 @@ from fairyring.model.geometry.shapes import (
 )
 
 Affine = NDArray[np.float64]
-"""(2, 3): continuous (x, y, 1) before → continuous (x, y) after."""
+"""Matrix (2, 3) that takes continuous (x, y, 1) before to continuous (x, y) after."""
 
 
 class Augmentation(Struct, frozen=True, kw_only=True):
     """What is done to one image, in this order: mirrored, turned, brightened."""
 
     flip_horizontal: bool = False
-    """Left becomes right."""
+    """Whether left becomes right."""
     flip_vertical: bool = False
-    """Top becomes bottom."""
+    """Whether top becomes bottom."""
     rotation_deg: float = 0.0
-    """About the image's middle, from +x towards +y."""
+    """Rotation about the image's middle, degrees from +x towards +y."""
     brightness: float = 1.0
     """Factor on every grey level."""
 
 
-def draw_augmentation(
+def sample_augmentation(
     rng: np.random.Generator, *, most_rotation_deg: float = 20.0, most_brightness: float = 0.35
 ) -> Augmentation:
-    """Each mirroring half of the time; rotation and brightness evenly between their limits."""
+    """A random augmentation: each flip half of the time, rotation and brightness uniform within limits."""
     return Augmentation(
         flip_horizontal=bool(rng.integers(2)),
         flip_vertical=bool(rng.integers(2)),
@@ -50,7 +50,7 @@ def draw_augmentation(
 
 
 def motion_of(augmentation: Augmentation, *, width: int, height: int) -> Affine:
-    """Where points of an image of this size go."""
+    """The matrix that moves points of an image of this size."""
     angle = math.radians(augmentation.rotation_deg)
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     mirror = np.diag(
@@ -65,7 +65,7 @@ def motion_of(augmentation: Augmentation, *, width: int, height: int) -> Affine:
 
 
 def move_image(image: NDArray[np.uint8], motion: Affine, *, width: int, height: int) -> NDArray[np.uint8]:
-    """(h, w) or (h, w, channels) → what ``motion`` takes into a picture of this size; black from outside."""
+    """Moves an image (h, w) or (h, w, channels) into one of this size; what comes from outside is black."""
     # OpenCV counts from the first pixel's centre.
     indices = motion.copy()
     indices[:, 2] += motion[:, :2] @ (0.5, 0.5) - 0.5

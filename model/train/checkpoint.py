@@ -1,4 +1,4 @@
-"""All that a training needs to go on as if it had never stopped."""
+"""Checkpoints: all that a training needs to go on as if it had never stopped."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class CheckpointError(FairyringError):
 
 
 def save_checkpoint(folder: Path, state: dict[str, Any]) -> None:
-    """Writes beside and renames: a kill leaves the one before. Raises CheckpointError."""
+    """Writes a new file and renames it, so that a kill leaves the old one. Raises CheckpointError."""
     beside = folder / (CHECKPOINT + ".part")
     try:
         torch.save(state, beside)

@@ -1,4 +1,4 @@
-"""Crops at native scale, turned and brightened, with their caps: section 3's augmentations, on the fly."""
+"""Augmented crops of photos at native scale, with their caps: section 3's augmentations, on the fly."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from fairyring.model.network.config import FRAME
 from fairyring.model.train.augment import Affine, Augmentation, motion_of, move_image, move_outline
 
 LEAST_VISIBLE = 24
-"""Pixels of a cap in the crop below which it is not learnt there."""
+"""A cap with fewer pixels than this in a crop is not learnt there."""
 
 
 class CropConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The paper's augmentations; what goes beyond them is off unless asked for."""
 
     side: int = 512
-    """Photo pixels; a multiple of ``NetworkConfig.multiple``."""
+    """Side of a crop, photo pixels; a multiple of ``NetworkConfig.multiple``."""
     most_rotation_deg: float = 20.0
     most_brightness: float = 0.35
     scale: tuple[float, float] = (1.0, 1.0)
-    """Enlargement, drawn evenly in the logarithm."""
+    """Range of the enlargement, sampled uniformly in the logarithm."""
     most_gain: float = 0.0
-    """Of each colour channel: a factor between 1 - this and 1 + this."""
+    """Each colour channel is multiplied by a factor between 1 - this and 1 + this."""
     most_gamma: float = 0.0
-    """Exponent between 1 - this and 1 + this."""
+    """Grey levels get an exponent between 1 - this and 1 + this."""
     most_blur_px: float = 0.0
-    """σ of a Gaussian, for half of the crops."""
+    """Largest σ of a Gaussian blur, pixels; half of the crops are blurred."""
     most_noise: float = 0.0
-    """σ in grey levels, for half of the crops."""
+    """Largest σ of added noise, grey levels; half of the crops get some."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,7 +54,7 @@ class Crop:
     centres: NDArray[np.float64]
     """(n, 2): mass centres of the masks."""
     ignored: NDArray[np.bool_]
-    """(side, side)."""
+    """(side, side) bool: where nothing is learnt."""
 
 
 def cut_crop(
@@ -66,7 +66,7 @@ def cut_crop(
     config: CropConfig,
     rng: np.random.Generator,
 ) -> Crop:
-    """A crop at a place drawn from ``rng``; outside of the photo it is black."""
+    """A crop at a random place; outside of the photo it is black."""
     height, width = photo.shape[:2]
     scale = float(np.exp(rng.uniform(*np.log(config.scale))))
     corner = np.array([_first(extent * scale, config.side, rng) for extent in (width, height)])
@@ -93,14 +93,14 @@ def cut_crop(
 
 
 def _first(extent: float, side: int, rng: np.random.Generator) -> float:
-    """Where the crop begins along one axis: anywhere it fits, in the middle of a photo that is smaller."""
+    """First pixel of the crop along one axis: random, or such that a smaller photo is in the middle."""
     room = extent - side
     # Whole pixels, so that a crop that is neither turned nor scaled is as sharp as its photo.
     return float(np.floor(min(rng.uniform(0, room + 1), room) if room > 0 else room / 2))
 
 
 def _mask_in(outline: Outline, side: int) -> Mask | None:
-    """The part of an outline that the crop shows; None where that is next to nothing."""
+    """Mask (side, side) of an outline in the crop; None where fewer than LEAST_VISIBLE pixels are in it."""
     x, y, width, height = bounds_of_outline(outline)
     left, top = max(0, math.floor(x)), max(0, math.floor(y))
     right, bottom = min(side, math.ceil(x + width)), min(side, math.ceil(y + height))

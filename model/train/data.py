@@ -1,4 +1,4 @@
-"""What the network learns from: photos with the visible outlines of their caps, read crop by crop."""
+"""Training data: labelled photos, and batches of crops from them."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.objective import Batch, Caps
 from fairyring.model.network.targets import assign_cells
-from fairyring.model.train.augment import draw_augmentation
+from fairyring.model.train.augment import sample_augmentation
 from fairyring.model.train.crops import Crop, CropConfig, cut_crop
 
 CACHED_PHOTOS = 700
-"""Decoded photos kept in memory: about 2 GB at 1280 × 720."""
+"""How many decoded photos are kept in memory: about 2 GB at 1280 × 720."""
 
 
 class DataError(FairyringError):
@@ -35,31 +35,31 @@ class Example:
 
     path: Path
     width: int
-    """Upright."""
+    """Width of the upright photo, pixels."""
     height: int
     caps: list[Outline]
-    """Visible outlines."""
+    """Visible outlines of the caps to learn."""
     ignored: list[Outline] = field(default_factory=list)
-    """Where nothing is learnt."""
+    """Outlines of regions where nothing is learnt."""
     light: str | None = None
     form: str | None = None
     source: str = ""
-    """Of a stored image: its number and the revisions of its caps."""
+    """The number of a stored image and the revisions of its caps."""
 
 
 class SampleConfig(Struct, frozen=True, kw_only=True):
-    """How batches are drawn."""
+    """How batches are sampled."""
 
     crop: CropConfig
     network: NetworkConfig
     batch: int
     soft: bool
-    """Targets are the share of each cell that the cap covers, else whether it covers half of it."""
+    """Whether targets are the share of each cell that the cap covers; else 1 where it covers half of it."""
     seed: int
 
 
 class Batches(Dataset[Batch]):
-    """Batch number i, always the same for the same examples, settings and i, whatever came before."""
+    """Batches by number: the same examples, settings and number always give the same one."""
 
     def __init__(self, examples: Sequence[Example], settings: SampleConfig, *, count: int) -> None:
         if not any(example.caps for example in examples):
@@ -81,7 +81,7 @@ class Batches(Dataset[Batch]):
                     read_rgb(example.path),
                     example.caps,
                     example.ignored,
-                    augmentation=draw_augmentation(
+                    augmentation=sample_augmentation(
                         rng,
                         most_rotation_deg=settings.crop.most_rotation_deg,
                         most_brightness=settings.crop.most_brightness,
@@ -92,15 +92,15 @@ class Batches(Dataset[Batch]):
             )
         return batch_of(crops, settings.network, soft=settings.soft)
 
-    def _turn(self, drawn: int) -> int:
-        """Every example once in each round, in an order of the round's own."""
+    def _turn(self, taken: int) -> int:
+        """Which example is next: each once a round, in a random order of the round's own."""
         count = len(self.examples)
-        rng = np.random.default_rng([self.settings.seed, drawn // count, 1 << 20])
-        return int(rng.permutation(count)[drawn % count])
+        rng = np.random.default_rng([self.settings.seed, taken // count, 1 << 20])
+        return int(rng.permutation(count)[taken % count])
 
 
 def batch_of(crops: Sequence[Crop], network: NetworkConfig, *, soft: bool) -> Batch:
-    """Crops of one size as the network and its losses want them."""
+    """Puts crops of one size together into a batch."""
     return Batch(
         photos=torch.from_numpy(np.stack([crop.photo for crop in crops]).transpose(0, 3, 1, 2)),
         origins=torch.tensor([crop.origin for crop in crops], dtype=torch.float32),
@@ -127,5 +127,5 @@ def _binary(targets: torch.Tensor) -> torch.Tensor:
 
 @lru_cache(maxsize=CACHED_PHOTOS)
 def read_rgb(path: Path) -> photo.Pixels:
-    """(height, width, 3) uint8, RGB, upright. Raises PhotoError."""
+    """Reads a photo as (height, width, 3) uint8, RGB, upright. Raises PhotoError."""
     return np.ascontiguousarray(photo.read(path)[:, :, ::-1])

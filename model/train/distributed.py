@@ -25,7 +25,7 @@ class Process:
         return self.rank == 0
 
     def wait(self) -> None:
-        """Until all have come this far."""
+        """Waits until all processes have come this far."""
         if self.world > 1:
             distributed.barrier()
 

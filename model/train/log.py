@@ -1,4 +1,4 @@
-"""What happened while a network was trained: a line of JSON for each event, and curves drawn from them."""
+"""The log of a training: a line of JSON for each event, and curves drawn from it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def read(folder: Path) -> list[dict[str, Any]]:
 
 
 def cut_after(folder: Path, iteration: int) -> None:
-    """Forgets what came after ``iteration``: a training that goes on from there writes it again."""
+    """Drops the entries after ``iteration``: a training that goes on from there writes them again."""
     kept = [entry for entry in read(folder) if entry["iteration"] <= iteration]
     (folder / LOG).write_text("".join(json.dumps(entry) + "\n" for entry in kept))
 

@@ -1,4 +1,4 @@
-"""How a step is taken: the optimiser, its rate over time, and the average of the weights."""
+"""The optimiser, its rate over time, and the average of the weights."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ DROPS = ((0.75, 0.1), (0.92, 0.01))
 """Shares of the iterations, and the factor on the rate from there on."""
 FIRST_RATE = 0.001
 AVERAGED_FROM = 10
-"""The average follows the weights closely at first: as if it had seen this many before."""
+"""The average begins as if it had seen so many iterations: it follows the weights closely at first."""
 
 
 def optimiser_of(network: PRSOLOv2, recipe: Recipe) -> torch.optim.Optimizer:
-    """Norms and biases are not decayed; the backbone has a rate of its own."""
+    """The recipe's optimiser. Norms and biases are not decayed; the backbone has a rate of its own."""
     groups = []
     for in_backbone in (True, False):
         for decays in (True, False):
@@ -51,7 +51,7 @@ def rate_at(iteration: int, recipe: Recipe) -> float:
 
 
 def set_rate(optimiser: torch.optim.Optimizer, rate: float) -> None:
-    """Of every group, times its factor."""
+    """Sets the rate of every parameter group, times the group's factor."""
     for group in optimiser.param_groups:
         group["lr"] = rate * group["factor"]
 

@@ -18,7 +18,7 @@ class RecipeError(FairyringError):
 
 
 class Recipe(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All that decides what comes out, with the data and the base weights."""
+    """All settings of a training; with the data and the base weights they decide its result."""
 
     network: NetworkConfig = field(default_factory=NetworkConfig)
     crop: CropConfig = field(default_factory=CropConfig)
@@ -30,12 +30,12 @@ class Recipe(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     optimiser: Literal["sgd", "adamw"] = "sgd"
     rate: float = 0.01
     momentum: float = 0.9
-    """Of SGD."""
+    """Momentum of SGD."""
     weight_decay: float = 1e-4
     warm_up: int = 500
     """Iterations over which the rate rises evenly from a thousandth of itself."""
     schedule: Literal["steps", "cosine"] = "steps"
-    """A tenth from 0.75 and a hundredth from 0.92 of the iterations on, or half a cosine down to nothing."""
+    """``steps``: a tenth from 75 % of the iterations and a hundredth from 92 %; ``cosine``: down to 0."""
     clip: float = 35.0
     """Largest norm of the gradient."""
     backbone_rate: float = 1.0
@@ -43,9 +43,9 @@ class Recipe(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     frozen: int = 1
     """Stages of the backbone, the stem and that up to C2 first, that stay as ImageNet left them."""
     average: float = 0.998
-    """Decay of the exponential moving average of the weights, which is what is kept; 0 for none."""
+    """Decay of the exponential moving average of the weights, which is what is saved; 0 for none."""
     bf16: bool = False
-    """Mixed precision."""
+    """Whether to train in mixed precision, bfloat16."""
     validate_every: int = 500
     validate_images: int = 24
     save_every: int = 200

@@ -1,4 +1,4 @@
-"""What changes while a network is trained, and what it begins with."""
+"""The state of a training, which changes from iteration to iteration."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class TrainingState:
 
 
 def new_network(recipe: Recipe) -> PRSOLOv2:
-    """From ImageNet where its weights are installed, else from nothing."""
+    """A new network, its backbone with ImageNet weights where those are installed."""
     network = PRSOLOv2(recipe.network)
     state = imagenet_weights() if recipe.network.backbone == "lite0" else None
     if state is not None:

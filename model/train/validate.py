@@ -1,4 +1,4 @@
-"""How good a network is on labelled photos: its predictions against the labels, as COCO documents."""
+"""Validation: a network's predictions on labelled photos against the labels, as COCO documents."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from fairyring.model.train.data import Example, read_rgb
 
 @dataclass(frozen=True, kw_only=True)
 class Validation:
-    """What was found out about a network."""
+    """The result of a validation."""
 
     figures: dict[str, Any]
-    """Those of ``evaluate masks``, of calibrated scores."""
+    """The figures of ``evaluate masks``, with calibrated scores."""
     calibration: Calibration
-    """By which its scores say best, on these examples, how often it is right at IoU .5."""
+    """The calibration of the network's scores on these examples, at IoU .5."""
 
 
 def validate(
@@ -39,7 +39,7 @@ def validate(
     settings: PredictConfig | None = None,
     progress: Progress = silent,
 ) -> Validation:
-    """Of a copy of the network, which is left as it is; its own calibration plays no part."""
+    """Validates a copy of the network; the calibration that it has already plays no part."""
     raw = copy.deepcopy(network)
     raw.calibration.copy_(torch.tensor(Calibration()))
     predictor = Predictor(raw, device=device, settings=settings)

@@ -11,11 +11,11 @@ from fairyring.model.geometry.raster import mask_of_outline
 from fairyring.model.geometry.shapes import Ellipse, polygon_of_shape
 from fairyring.model.train.augment import (
     Augmentation,
-    draw_augmentation,
     motion_of,
     move_image,
     move_outline,
     move_points,
+    sample_augmentation,
 )
 
 WIDTH, HEIGHT = 160, 120
@@ -67,8 +67,8 @@ def test_a_quarter_turn_is_clockwise_on_the_screen() -> None:
     assert move_points(np.array([[100.0, 50.0]]), motion)[0] == pytest.approx((50, 100))
 
 
-def test_draws_stay_within_their_limits_and_repeat_with_their_seed() -> None:
-    drawn = [draw_augmentation(np.random.default_rng(seed), most_rotation_deg=10) for seed in range(50)]
-    assert all(abs(one.rotation_deg) <= 10 and 0.65 <= one.brightness <= 1.35 for one in drawn)
-    assert {one.flip_horizontal for one in drawn} == {one.flip_vertical for one in drawn} == {True, False}
-    assert drawn[7] == draw_augmentation(np.random.default_rng(7), most_rotation_deg=10)
+def test_samples_stay_within_their_limits_and_repeat_with_their_seed() -> None:
+    sampled = [sample_augmentation(np.random.default_rng(seed), most_rotation_deg=10) for seed in range(50)]
+    assert all(abs(one.rotation_deg) <= 10 and 0.65 <= one.brightness <= 1.35 for one in sampled)
+    assert {one.flip_horizontal for one in sampled} == {one.flip_vertical for one in sampled} == {True, False}
+    assert sampled[7] == sample_augmentation(np.random.default_rng(7), most_rotation_deg=10)
