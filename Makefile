@@ -1,30 +1,39 @@
 # The two commands most people need: make demo, make test. Everything lives in .venv/.
-PYTHON ?= python3
 PORT ?= 8080
+# The environment's own Python where there is one, so that PYTHON= need be given only once.
+PYTHON ?= $(firstword $(wildcard .venv/bin/python) python3)
 BIN := .venv/bin
+
+# Empty files that say what the environment was made from: which Python, where, and which pyproject.toml.
+# One made by another Python, or moved, is made anew; one made for another pyproject.toml is brought up to date.
+IDENTITY := $(shell $(PYTHON) -c 'import os, sys; print(*sys.version_info[:2], sys.base_prefix, os.getcwd())' \
+	| cksum | cut -d ' ' -f 1)
+NEEDS := $(shell cksum < pyproject.toml | cut -d ' ' -f 1)
+PYTHON_READY := .venv/python-$(IDENTITY)
+PRODUCT := .venv/product-$(NEEDS)
+DEVELOPMENT := .venv/development-$(NEEDS)
 
 .PHONY: demo test bench pictures lint clean
 
-demo: .venv/product
-	@$(BIN)/fairyring demo demo
-	@$(BIN)/fairyring serve demo --port $(PORT)
+demo: $(PRODUCT)
+	@$(BIN)/fairyring demo demo --serve --port $(PORT)
 
-test: .venv/development
+test: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/node --test --test-reporter=dot "tests/js/**/*.test.js"
 	$(BIN)/python -m pytest $(ARGS)
 
-bench: .venv/development
+bench: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
 	$(BIN)/node tests/js/benchmark.js
 
-pictures: .venv/development
+pictures: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/python -m docs.take_screenshots
 
-lint: .venv/development .venv/typing
+lint: $(DEVELOPMENT) .venv/typing
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/basedpyright
@@ -33,21 +42,23 @@ lint: .venv/development .venv/typing
 clean:
 	rm -rf .venv demo
 
-.venv/pip:
+$(PYTHON_READY):
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Fairyring needs Python 3.11 or newer: make PYTHON=python3.12")'
-	$(PYTHON) -m venv .venv
+	$(PYTHON) -m venv $(if $(wildcard .venv/python-*),--clear) .venv
 	$(BIN)/python -m pip install --quiet --upgrade pip
 	@touch $@
 
-.venv/product: .venv/pip pyproject.toml
+$(PRODUCT): $(PYTHON_READY)
+	@echo "Installing what Fairyring needs into .venv/; the first time this takes minutes (README.md says how much it downloads)."
 	$(BIN)/python -m pip install --quiet --editable .
-	@touch $@
+	@rm -f .venv/product-* && touch $@
 
-.venv/development: .venv/product
+$(DEVELOPMENT): $(PRODUCT)
 	$(BIN)/python -m pip install --quiet --group dev
-	@touch $@
+	@rm -f .venv/development-* && touch $@
 
 # The type checker finds fairyring.app in app/ through these links.
-.venv/typing: .venv/pip
+.venv/typing: $(PYTHON_READY)
 	@mkdir -p $@/fairyring
 	@for room in app model storage static; do ln -sfn ../../../$$room $@/fairyring/$$room; done
+	@touch $@
