@@ -28,6 +28,7 @@ bench: $(DEVELOPMENT)
 	$(BIN)/fairyring bench store
 	$(BIN)/fairyring bench editor
 	$(BIN)/node tests/js/benchmark.js
+	$(BIN)/fairyring bench page
 
 pictures: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium

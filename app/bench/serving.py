@@ -14,6 +14,8 @@ from pathlib import Path
 from urllib.request import urlopen
 
 START_S = 60.0
+FAIRYRING = (sys.executable, "-c", "from fairyring.app.cli import main; main()")
+"""The command, of this very Python."""
 
 
 def free_port() -> int:
@@ -38,9 +40,8 @@ class Server:
 
     def start(self) -> None:
         """Starts it and waits until it answers; ConnectionError if it does not."""
-        command = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
         serve = ["serve", str(self.project), "--port", str(self.port), "--no-token"]
-        self.process = subprocess.Popen([*command, *serve])
+        self.process = subprocess.Popen([*FAIRYRING, *serve])
         deadline = time.monotonic() + START_S
         while not self._answers():
             if self.process.poll() is not None or time.monotonic() > deadline:

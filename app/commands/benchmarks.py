@@ -52,6 +52,18 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
 
 @commands.command()
+def page(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time the server's start, and count requests and bytes of a first and a second visit to the page.
+
+    Example: `fairyring bench page --json`
+    """
+    with driving_a_browser():
+        from fairyring.app.bench.browser.page import page_rows
+
+    print_rows("page", page_rows(quick=quick), as_json=as_json)
+
+
+@commands.command()
 def scene(
     *,
     real: Annotated[

@@ -9,7 +9,7 @@ from urllib.parse import quote, unquote
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
-from fairyring.app.gateway.static_files import STATIC
+from fairyring.app.gateway.static_files import static_files
 
 COOKIE = "fairyring_name"
 LONGEST_NAME = 60
@@ -43,6 +43,13 @@ async def name_page(request: Request) -> Response:
 
 def ask_for_name(name: str = "", *, problem: str = "", status_code: int = 200) -> Response:
     """The page that asks for a name."""
-    page = (STATIC / "name.html").read_text(encoding="utf-8")
-    filled = page.replace("{{name}}", escape(name)).replace("{{problem}}", escape(problem))
+    files = static_files()
+    filled = files.contents["name.html"].decode()
+    for hole, words in {
+        "style": files.url("name.css"),
+        "icon": files.url("icon.svg"),
+        "name": name,
+        "problem": problem,
+    }.items():
+        filled = filled.replace(f"{{{{{hole}}}}}", escape(words))
     return HTMLResponse(filled, status_code=status_code, headers={"Cache-Control": "no-store"})

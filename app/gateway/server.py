@@ -17,7 +17,7 @@ from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
-from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.routing import Route, WebSocketRoute
 
 from fairyring.app.addresses import DOWNLOADS, PHOTOS
 from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
@@ -27,8 +27,9 @@ from fairyring.app.gateway.login import name_page
 from fairyring.app.gateway.photos import photos_of
 from fairyring.app.gateway.security import LOOPBACK, Guard
 from fairyring.app.gateway.socket import editor_of
-from fairyring.app.gateway.static_files import EditorFiles
-from fairyring.app.gateway.viser_page import load_shell, shell_page
+from fairyring.app.gateway.static_files import static_file
+from fairyring.app.gateway.viser_client import load_viser, viser_file
+from fairyring.app.gateway.viser_page import page
 from fairyring.app.gateway.viser_relay import relay_to
 from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
@@ -60,7 +61,7 @@ def serve(
     not be listened on or a port that is taken, and whatever open_project raises; before anything is started.
     """
     settings = settings or load_settings(project_folder)
-    load_shell()
+    load_viser()
     with contextlib.closing(_listen(settings)) as listening, open_project(project_folder) as project:
         workspace = Workspace(project, settings)
         address = f"http://{_shown_host(settings.host)}:{listening.getsockname()[1]}"
@@ -98,14 +99,15 @@ def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
     cache_limit = workspace.settings.photo_cache_mb * 2**20
     return Starlette(
         routes=[
-            Route("/", shell_page),
+            Route("/", page),
             WebSocketRoute("/", relay_to(upstream)),
             WebSocketRoute("/editor", editor_of(workspace)),
             Route("/name", name_page, methods=["GET", "POST"]),
             Route(PHOTOS, photos_of(workspace.project, cache_limit=cache_limit)),
             Route(DOWNLOADS, downloads_of(workspace.project)),
             Route("/healthz", _healthz),
-            Mount("/static", EditorFiles()),
+            Route("/static/{version}/{path:path}", static_file),
+            Route("/viser/{version}/{name}", viser_file),
         ],
         middleware=[Middleware(Guard), *([Middleware(OnlyWithPass, door)] if door else [])],
         lifespan=lifespan,

@@ -1,31 +1,85 @@
-"""Where the browser's files lie, and how they are served."""
+"""Fairyring's own files for the browser, at addresses that change whenever one of them does.
+
+All share one version, a hash of every name and content. So modules, workers and style sheets find each
+other by relative addresses, and a browser keeps them all until there is another version.
+"""
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
+import hashlib
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path, PurePosixPath
+from posixpath import normpath
 
-from starlette.responses import Response
-from starlette.staticfiles import StaticFiles
-from starlette.types import Scope
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+
+from fairyring.app.gateway.compressed import FOR_EVER, compressed
 
 STATIC = Path(__file__).resolve().parents[2] / "static"
 """The folder with the browser's files: beside ``app`` in a checkout, and where the wheel puts it."""
+MEDIA_TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".html": "text/html"}
+
+_IMPORT = re.compile(r'^(?:import|export)\b[^"();]*?\bfrom\s*"([^"]+)"|^import\s*"([^"]+)"', re.MULTILINE)
 
 
-class EditorFiles(StaticFiles):
-    """The editor's modules: never stale, as their names carry no version, and cheap to revalidate."""
+@dataclass(frozen=True, eq=False)
+class StaticFiles:
+    """Everything below ``static``, as it was on the disk at one moment."""
 
-    def __init__(self) -> None:
-        super().__init__(directory=STATIC)
+    contents: Mapping[str, bytes]
+    """By path below ``static``, with forward slashes."""
+    version: str
 
-    def file_response(
-        self,
-        full_path: str | os.PathLike[str],
-        stat_result: os.stat_result,
-        scope: Scope,
-        status_code: int = 200,
-    ) -> Response:
-        response = super().file_response(full_path, stat_result, scope, status_code)
-        response.headers["Cache-Control"] = "no-cache"
-        return response
+    def url(self, path: str) -> str:
+        """Where the browser finds a file."""
+        return f"/static/{self.version}/{path}"
+
+    def imported_by(self, path: str) -> list[str]:
+        """The modules that a module imports, directly or by way of others, nearest first."""
+        found = [path]
+        for module in found:
+            imports = _IMPORT.findall(self.contents[module].decode())
+            named = (normpath(PurePosixPath(module).parent / (name or bare)) for name, bare in imports)
+            found += dict.fromkeys(each for each in named if each in self.contents and each not in found)
+        return found[1:]
+
+
+def static_files() -> StaticFiles:
+    """The files as they are now; read again only if one has changed."""
+    paths = sorted(path for path in STATIC.rglob("*") if path.is_file())
+    return _read(tuple((path, path.stat().st_mtime_ns, path.stat().st_size) for path in paths))
+
+
+@lru_cache(maxsize=1)
+def _read(stamps: tuple[tuple[Path, int, int], ...]) -> StaticFiles:
+    contents = {path.relative_to(STATIC).as_posix(): path.read_bytes() for path, *_ in stamps}
+    return StaticFiles(contents, version_of(contents))
+
+
+def version_of(contents: Mapping[str, bytes]) -> str:
+    """A hash of names and contents, fit for an address."""
+    each = (f"{name} {hashlib.sha256(content).hexdigest()}\n" for name, content in contents.items())
+    return hashlib.sha256("".join(each).encode()).hexdigest()[:16]
+
+
+def static_file(request: Request) -> Response:
+    """GET /static/VERSION/PATH. A page of an older version gets what there is now, to be asked for again."""
+    files, path = static_files(), request.path_params["path"]
+    if path not in files.contents:
+        return PlainTextResponse("There is no such file.", status_code=404)
+    current = request.path_params["version"] == files.version
+    return compressed(
+        request,
+        files.contents[path],
+        media_type=media_type_of(path),
+        cache_control=FOR_EVER if current else "no-cache",
+    )
+
+
+def media_type_of(path: str) -> str:
+    """Of a file, by its ending."""
+    return MEDIA_TYPES.get(PurePosixPath(path).suffix, "application/octet-stream")

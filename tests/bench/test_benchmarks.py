@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fairyring.app.bench.browser.editor import editor_rows
+from fairyring.app.bench.browser.page import page_rows
 from fairyring.app.bench.store import store_rows
 from fairyring.app.bench.timing import Row, p95_row, row
 from fairyring.app.commands.benchmarks import commands
@@ -24,6 +25,7 @@ HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", 
     [
         (store_rows, {"import": 5000, "a page of the list": 100, "open an image": 50, "server memory": 500}),
         (editor_rows, {"edit: release": 50, "next image, 1280 × 720": 100, "any image, 4000 × 3000": 400}),
+        (page_rows, {"fairyring serve: typed to answering": 4}),
     ],
 )
 def test_a_quick_run_gives_every_figure_beside_its_target(measured, targets):
@@ -58,7 +60,7 @@ def test_help_imports_nothing_heavy():
     assert HEAVY & set(done.stderr.split()) == set()
 
 
-@pytest.mark.parametrize("name", ["editor", "store"])
+@pytest.mark.parametrize("name", ["editor", "page", "store"])
 def test_without_playwright_a_benchmark_in_a_browser_says_what_to_type(name):
     script = (
         f"import sys; sys.argv = ['fairyring', 'bench', '{name}']; sys.modules['playwright'] = None\n"

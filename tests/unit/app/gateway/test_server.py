@@ -12,7 +12,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from fairyring.app.gateway import server
 from fairyring.app.gateway.security import is_loopback, is_same_origin
-from fairyring.app.gateway.viser_page import load_shell
+from fairyring.app.gateway.static_files import static_files
+from fairyring.app.gateway.viser_page import POLICY
 from fairyring.app.settings import Settings
 from fairyring.storage.project import Project
 from tests.support.tab import SUBPROTOCOL, Panel, Tab, open_socket
@@ -27,20 +28,30 @@ def get(port: int, path: str, **headers: str) -> httpx.Response:
 def test_the_page_is_visers_with_the_editor_added(shared_port: int) -> None:
     page = get(shared_port, "/")
     assert page.status_code == 200
-    assert '<script type="module" src="/static/editor/main.js"></script>' in page.text
+    assert f'<script type="module" src="{static_files().url("editor/main.js")}"></script>' in page.text
+    assert '<div id="root"></div>' in page.text
     assert "<title>Fairyring</title>" in page.text
     assert "<title>Viser</title>" not in page.text
-    assert (
-        page.text.index("data-cs=") < page.text.index("/static/editor/main.js") < page.text.index("</head>")
-    )
 
 
-def test_the_policy_names_visers_own_scripts_and_no_others() -> None:
-    policy = load_shell().policy
-    script_sources = re.search(r"script-src ([^;]*)", policy).group(1).split()
-    assert len([source for source in script_sources if source.startswith("'sha256-")]) == 2
-    assert "'unsafe-inline'" not in script_sources
-    assert "frame-ancestors 'none'" in policy
+def test_no_script_stands_in_the_page_and_the_policy_allows_none(shared_port: int) -> None:
+    page = get(shared_port, "/")
+    scripts = re.findall(r"<script[^>]*>(.*?)</script>", page.text, re.DOTALL)
+    assert scripts == ["", ""]
+    assert page.headers["content-security-policy"] == POLICY
+    script_sources = re.search(r"script-src ([^;]*)", POLICY).group(1).split()
+    assert script_sources == ["'self'", "'unsafe-eval'"]
+    assert "frame-ancestors 'none'" in POLICY
+
+
+def test_everything_the_page_names_may_be_kept_for_ever(shared_port: int) -> None:
+    named = re.findall(r'(?:href|src)="([^"]*)"', get(shared_port, "/").text)
+    assert len(named) > 40
+    assert len(set(named)) == len(named)
+    for address in named:
+        answer = get(shared_port, address)
+        assert answer.status_code == 200, address
+        assert answer.headers["cache-control"] == "public, max-age=31536000, immutable", address
 
 
 def test_a_query_that_could_lead_visers_client_to_another_server_is_dropped(shared_port: int) -> None:
@@ -59,7 +70,7 @@ def test_the_name_is_asked_for_once_and_kept_in_a_strict_cookie(shared_port: int
         assert "HttpOnly" in cookie
         assert "SameSite=strict" in cookie
         assert "Max-Age=31536000" in cookie
-        assert "/static/editor/main.js" in browser.get("/").text
+        assert "/editor/main.js" in browser.get("/").text
         assert 'value="Åsa Ek"' in browser.get("/name").text
 
 
@@ -142,22 +153,24 @@ def test_the_relay_passes_visers_close_code_on(shared_port: int) -> None:
     assert "Version mismatch" in closed.value.rcvd.reason
 
 
-def test_static_files_are_revalidated_and_nothing_outside_is_served(shared_port: int) -> None:
-    script = get(shared_port, "/static/panel.css")
+def test_a_page_of_an_older_version_gets_todays_files_but_may_not_keep_them(shared_port: int) -> None:
+    script = get(shared_port, "/static/0123456789abcdef/panel.css")
     assert script.status_code == 200
     assert script.headers["cache-control"] == "no-cache"
-    assert (
-        get(shared_port, "/static/panel.css", **{"If-None-Match": script.headers["etag"]}).status_code == 304
-    )
-    for path in ("/static/../pyproject.toml", "/static/%2e%2e/pyproject.toml", "/static/..%2fpyproject.toml"):
+    assert get(shared_port, "/viser/0123456789abcdef/client.js").status_code == 404
+
+
+def test_nothing_outside_static_is_served(shared_port: int) -> None:
+    root = static_files().url("")
+    for path in ("../pyproject.toml", "%2e%2e/%2e%2e/pyproject.toml", "..%2fpyproject.toml", "editor", ""):
         with socket.create_connection(("127.0.0.1", shared_port)) as raw:
-            raw.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
+            raw.sendall(f"GET {root}{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
             answer = b"".join(iter(lambda: raw.recv(65536), b""))
         assert answer.startswith(b"HTTP/1.1 404"), path
 
 
 def test_every_answer_carries_the_security_headers(shared_port: int) -> None:
-    for path in ("/", "/healthz", "/static/panel.css", "/nothing"):
+    for path in ("/", "/healthz", static_files().url("panel.css"), "/nothing"):
         headers = get(shared_port, path).headers
         assert headers["x-content-type-options"] == "nosniff"
         assert headers["x-frame-options"] == "DENY"
