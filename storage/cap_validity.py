@@ -1,4 +1,4 @@
-"""Is a cap, as somebody sent it, fit to be stored?"""
+"""Checks whether a cap, as somebody sent it, is fit to be stored."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], ob
 
 
 def check_name(text: str, what: str) -> str:
-    """A short, printable, one-line name.
+    """The name, if it is a short, printable, single line.
 
     Raises:
         StoreError: empty, longer than ``MAX_NAME`` or with control characters.
@@ -50,5 +50,5 @@ def check_name(text: str, what: str) -> str:
 
 
 def are_finite(numbers: Sequence[float]) -> bool:
-    """Real numbers, none of them NaN, infinite or a boolean in disguise."""
+    """Whether all are real numbers: not NaN, not infinite, no booleans."""
     return all(type(value) in (int, float) and math.isfinite(value) for value in numbers)

@@ -27,20 +27,20 @@ class Comparison(Struct, frozen=True, kw_only=True):
     missed: int
     extra: int
     cdr_mean: float | None = None
-    """Percent (Eq. 10)."""
+    """Mean CDR, percent (Eq. 10)."""
     cdr_worst: float | None = None
     worst: str | None = None
-    """The annotation of the worst CDR."""
+    """Uid of the annotation with the worst CDR."""
     px_mean: float | None = None
     relative_mean: float | None = None
-    """Error over the cap's diameter."""
+    """Mean error as a share of the cap's diameter."""
     dx: float | None = None
-    """Signed mean error, pixels, predicted minus marked."""
+    """Signed mean error along x, pixels, predicted minus marked; ``dy`` along y."""
     dy: float | None = None
 
 
 class ComparisonRow(Struct, frozen=True, kw_only=True):
-    """A line of the review."""
+    """One line of the review."""
 
     file_name: str
     comparison: Comparison
@@ -48,14 +48,14 @@ class ComparisonRow(Struct, frozen=True, kw_only=True):
 
 
 class ComparisonPage(Struct, frozen=True, kw_only=True):
-    """Some lines, and how many there are."""
+    """Some lines of the review, and how many there are in all."""
 
     rows: list[ComparisonRow]
     total: int
 
 
 def store_comparison(connection: Connection, figures: Comparison) -> None:
-    """Replaces what was known of this image and run."""
+    """Stores the figures of an image and a run, in place of older ones."""
     connection.execute(
         delete(comparison).where(comparison.c.image == figures.image, comparison.c.run == figures.run)
     )

@@ -1,4 +1,4 @@
-"""What the editor, an export and a comparison read of one image."""
+"""Reads what is on one image: for the editor, an export and a comparison."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from fairyring.storage.records import Annotation, ImageContents, Prediction, Run
 
 
 def load_contents(connection: Connection, image_id: int) -> ImageContents:
-    """Everything the editor shows: live annotations, and predictions that are open or became one of them.
+    """The contents of an image: live annotations, and predictions that are open or became one of them.
 
     Predictions that somebody deleted, or that lie on a cap people have labelled already, are left out.
 
@@ -75,7 +75,7 @@ def load_run(connection: Connection, run_id: int) -> Run | None:
 
 
 def load_version(connection: Connection, image_id: int) -> int:
-    """Grows whenever an annotation or prediction of the image changes.
+    """The image's version, which grows whenever an annotation or prediction of it changes.
 
     Read it before the caps that a figure is computed from, and store it with the figure.
 

@@ -1,4 +1,4 @@
-"""Whole outlines and centres that nobody has worked out yet, and their storing."""
+"""Finds caps whose whole outline is not worked out yet, and stores it once it is."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ class PredictionFit(Struct, frozen=True, kw_only=True):
 
 
 class Underived(Struct, frozen=True, kw_only=True):
-    """What an image lacks."""
+    """The caps of an image whose whole outline is not worked out yet."""
 
     annotations: list[str]
-    """Live ones, by uid."""
+    """Uids of live annotations."""
     predictions: list[int]
-    """Of the latest run that saw the image, by id."""
+    """Ids of predictions of the latest run that saw the image."""
 
 
 _ANNOTATION_LACKS = and_(
@@ -52,7 +52,7 @@ _PREDICTION_LACKS = and_(prediction.c.whole.is_(None), prediction.c.refusal.is_(
 
 
 def images_with_underived(connection: Connection) -> list[int]:
-    """The images in which something is lacking."""
+    """Ids of the images with such caps."""
     of_latest_run = and_(image.c.id == prediction.c.image, image.c.run == prediction.c.run)
     statement = union(
         select(annotation.c.image).where(_ANNOTATION_LACKS),
@@ -62,7 +62,7 @@ def images_with_underived(connection: Connection) -> list[int]:
 
 
 def underived_of(connection: Connection, image_id: int) -> Underived:
-    """What one image lacks."""
+    """The caps of one image that lack a whole outline."""
     latest = select(image.c.run).where(image.c.id == image_id).scalar_subquery()
     annotations = select(annotation.c.uid).where(annotation.c.image == image_id, _ANNOTATION_LACKS)
     predictions = select(prediction.c.id).where(

@@ -1,4 +1,4 @@
-"""What goes wrong with a project, said so that a person can put it right."""
+"""Errors of a project, worded so that a person can put them right."""
 
 from __future__ import annotations
 

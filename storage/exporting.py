@@ -37,11 +37,11 @@ JPEG_QUALITY = 97
 
 
 class ExportReport(Struct, frozen=True, kw_only=True):
-    """What was written."""
+    """How much an export wrote."""
 
     images: int
     annotations: int
-    """Predictions too, where they were asked for."""
+    """How many annotations, or predictions where those were asked for."""
 
 
 def export_coco(

@@ -1,4 +1,4 @@
-"""What lies in a project's folder under which name. Light to import: a command asks before it loads more."""
+"""Names of the files in a project's folder. Light to import: commands look before they load more."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class ImageFilter(Struct, frozen=True, kw_only=True):
 
 
 class ImageRow(Struct, frozen=True, kw_only=True):
-    """One line of the list."""
+    """One line of the image list."""
 
     image: Image
     caps: int
@@ -46,14 +46,14 @@ class ImageRow(Struct, frozen=True, kw_only=True):
     predicted: int
     """Predictions of the latest run that saw the image."""
     cdr_mean: float | None
-    """Percent, of the latest comparison, which may be out of date."""
+    """Mean CDR of the latest comparison, percent; it may be out of date."""
     cdr_worst: float | None
     worst: str | None
-    """The annotation with the worst CDR."""
+    """Uid of the annotation with the worst CDR."""
 
 
 class ImagePage(Struct, frozen=True, kw_only=True):
-    """Some lines, and how many the filter finds in all."""
+    """One page of the image list, and how many images the filter finds in all."""
 
     rows: list[ImageRow]
     total: int
@@ -63,9 +63,9 @@ class ListPosition(Struct, frozen=True, kw_only=True):
     """Where an image stands in the list. One that the filter leaves out stands where it would be."""
 
     position: int
-    """From 0."""
+    """Position in the list, from 0."""
     count: int
-    """Images the filter finds."""
+    """How many images the filter finds."""
     previous: int | None
     next: int | None
 
@@ -119,7 +119,7 @@ def get_image(connection: Connection, image_id: int) -> Image:
 
 
 def find_image(connection: Connection, file_name: str) -> Image | None:
-    """The image of this base name."""
+    """The image of this base name; None where there is none."""
     row = connection.execute(select(image).where(image.c.file_name == file_name)).first()
     return None if row is None else image_of(row)
 
@@ -145,7 +145,7 @@ def set_status(connection: Connection, image_id: int, status: Status, *, user: s
 
 
 def sort_name(file_name: str) -> str:
-    """Sorts bed_2 before bed_10, and upper case beside lower case."""
+    """The key to sort a name by: bed_2 comes before bed_10, upper case beside lower case."""
     return re.sub(r"[0-9]+", lambda digits: digits.group().zfill(12), file_name.casefold())
 
 

@@ -38,7 +38,7 @@ class Derived(Struct, frozen=True, kw_only=True):
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     refusal: str | None = None
-    """Why there is no whole outline, though it was tried."""
+    """Why no whole outline was found; None where there is one or none was sought."""
 
 
 class Entry(Struct, frozen=True, kw_only=True):
@@ -71,7 +71,7 @@ def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Out
 
 
 def history(connection: Connection, uid: str) -> list[Entry]:
-    """Everything that was done to an annotation, the first edit first."""
+    """All edits of an annotation, the first one first."""
     journal = schema.edit
     statement = select(journal).where(journal.c.annotation == uid).order_by(journal.c.revision)
     return [
@@ -90,7 +90,7 @@ def history(connection: Connection, uid: str) -> list[Entry]:
 
 
 def digest_of(edit: Edit) -> str:
-    """Tells an edit sent twice from another one under the same id."""
+    """A digest of an edit, to tell one sent twice from another one under the same id."""
     return sha256(json.encode(edit)).hexdigest()
 
 
@@ -175,7 +175,7 @@ def _current(connection: Connection, uid: str) -> tuple[Annotation | None, str]:
 
 
 def _is_made_on(edit: Edit, current: Annotation) -> bool:
-    """A deleted annotation can only be brought back by whoever saw that it is deleted."""
+    """Whether an edit was made on the annotation as it is now; only who saw a deletion can undo it."""
     return edit.base == current.revision and not (current.deleted and edit.cap is None)
 
 

@@ -15,14 +15,14 @@ from fairyring.storage.records import Annotation, Image, Outline, Prediction
 SAME = 0.5
 """Least IoU of a prediction and an annotation of one cap."""
 MOSTLY, ALIKE = 0.8, 0.3
-"""One covers this share of the other: one cap too, unless an IoU below the second says that a small cap lies
-on a large one."""
+"""Where one covers the first share of the other they are one cap, too, unless the IoU is below the second:
+then a small cap lies on a large one."""
 
 
 def offered(
     image: Image, annotations: Sequence[Annotation], predictions: Sequence[Prediction]
 ) -> list[Prediction]:
-    """The predictions without those that lie on a live annotation which did not start from them.
+    """The open predictions: without those that lie on a live annotation which did not start from them.
 
     Compared are the visible outlines, or all of a mark placed without one. What mostly lies in an ignored
     region is left out as well, however small it is.

@@ -1,4 +1,4 @@
-"""What model runs said. Runs and predictions are added, never changed."""
+"""Runs of a model and their predictions, which are added and never changed."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
 
     visible: Outline
     score: float
-    """0 to 1."""
+    """Score, 0 to 1."""
     category: str = "mushroom"
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     refusal: str | None = None
-    """Why there is no whole outline, though it was tried."""
+    """Why no whole outline was found; None where there is one or none was sought."""
     uid: str | None = None
-    """The same again in the same run and image adds nothing."""
+    """Identifies it within its run and image: the same one again adds nothing."""
     extra: dict[str, Any] = field(default_factory=dict)
 
 
@@ -50,7 +50,7 @@ def add_run(
     settings: dict[str, Any] | None = None,
     key: str | None = None,
 ) -> Run:
-    """Enters what makes the predictions that follow.
+    """Adds a run, to which predictions can then be added.
 
     Args:
         connection: within ``Project.write``.
@@ -91,7 +91,7 @@ def continued_run(
 
 
 def seen_by(connection: Connection, *, weights: str, settings: dict[str, Any]) -> set[int]:
-    """The images that ``continued_run`` would find seen already."""
+    """Ids of the images that the run of ``continued_run`` has seen."""
     latest = latest_run(connection)
     if latest is None or latest.weights != weights or latest.settings != settings:
         return set()
@@ -127,7 +127,7 @@ def add_predictions(
 
 
 def saw(connection: Connection, *, run_id: int, image_ids: Sequence[int]) -> None:
-    """Makes the run the latest of these images, unless a later one saw them, and recounts."""
+    """Notes that a run saw these images: it is now their latest, unless a later one saw them."""
     later = image.c.run.is_(None) | (image.c.run < run_id)
     for image_id in image_ids:
         connection.execute(update(image).where(image.c.id == image_id, later).values(run=run_id))

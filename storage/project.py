@@ -44,7 +44,7 @@ class Project:
 
     @property
     def images(self) -> Path:
-        """Where copied images lie."""
+        """Folder of the copied images."""
         return self.folder / IMAGES
 
     @contextmanager

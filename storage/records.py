@@ -1,4 +1,4 @@
-"""What the store hands out and takes in: plain records, free of SQL.
+"""The records that the store returns and accepts: plain data, free of SQL.
 
 Outlines are lists of parts, each part a flat list ``[x0, y0, x1, y1, …]`` in continuous pixel
 coordinates of the upright image (x right, y down, the centre of pixel i at i + 0.5).
@@ -14,7 +14,7 @@ from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 
 Outline = list[list[float]]
 Shape = Circle | Ellipse
-"""A whole outline: also where the cap is hidden."""
+"""A whole outline, which goes on where the cap is hidden."""
 Mark = Circle | Ellipse | Polygon
 """What a person placed. The browser places circles and polygons; ellipses come from imports."""
 Status = Literal["new", "annotated", "approved"]
@@ -48,7 +48,7 @@ class Cap(Struct, frozen=True, kw_only=True):
     ignored: bool = False
     doubtful: bool = False
     order: int | None = None
-    """Overlap order: a cap of higher order lies in front."""
+    """Overlap order; a cap of higher order lies in front."""
     category: str = "mushroom"
     prediction: int | None = None
     """The prediction this cap started from."""
@@ -64,7 +64,7 @@ class Annotation(Struct, frozen=True, kw_only=True):
     cap: Cap
     deleted: bool = False
     whole: Shape | None = None
-    """From the mark, else reconstructed from the visible outline; None until it is worked out."""
+    """Whole outline, from the mark or else from the visible outline; None until it is worked out."""
     centre: tuple[float, float] | None = None
     extra: dict[str, Any] = field(default_factory=dict)
 
@@ -136,11 +136,11 @@ Outcome = Accepted | Conflict | Refused
 
 
 class ImageContents(Struct, frozen=True, kw_only=True):
-    """Everything the editor shows of one image."""
+    """What is on one image, as the editor shows it."""
 
     image: Image
     annotations: list[Annotation]
-    """Live ones only."""
+    """Live annotations only."""
     predictions: list[Prediction]
-    """Of the latest run that saw this image; without those that lie on annotations made otherwise."""
+    """Predictions of the latest run that saw it, without those that lie on annotations made otherwise."""
     run: Run | None

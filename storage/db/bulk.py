@@ -1,4 +1,4 @@
-"""Many rows at once: one prepared statement, and each column converted as a whole."""
+"""Inserts many rows at once: one prepared statement, and each column converted as a whole."""
 
 from __future__ import annotations
 

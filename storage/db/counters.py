@@ -10,7 +10,7 @@ from fairyring.storage.db.schema import annotation, image, prediction
 
 
 def recount(connection: Connection, image_ids: Iterable[int]) -> None:
-    """Counts caps and predictions anew, and makes figures computed from them before stale."""
+    """Counts an image's caps and predictions anew, and makes figures computed before stale."""
     rows = [{"which": image_id} for image_id in sorted(set(image_ids))]
     if rows:
         connection.execute(_RECOUNT, rows)

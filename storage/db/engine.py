@@ -59,7 +59,7 @@ def _set_up_sqlite(connection: Any, _record: Any) -> None:
 
 @contextmanager
 def explained(what: str) -> Generator[None]:
-    """Turns the database's own failures into a sentence about ``what``.
+    """Turns the database's own errors into a sentence about ``what``.
 
     Raises:
         StoreError: for a full disk, a lock held for too long, a damaged file or an unreachable server.

@@ -1,4 +1,4 @@
-"""From rows to records and back: the only place that knows which column holds which field."""
+"""Turns rows into records and back; only this module knows which column holds which field."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SELECT_PREDICTIONS: AnySelect = select(prediction, category.c.name.label("catego
 
 
 def image_of(row: AnyRow) -> Image:
-    """A row of ``image``."""
+    """The record of a row of ``image``."""
     return Image(
         id=row.id,
         file_name=row.file_name,
@@ -40,7 +40,7 @@ def image_of(row: AnyRow) -> Image:
 
 
 def annotation_of(row: AnyRow) -> Annotation:
-    """A row of ``SELECT_ANNOTATIONS``."""
+    """The record of a row of ``SELECT_ANNOTATIONS``."""
     return Annotation(
         uid=row.uid,
         image=row.image,
@@ -62,7 +62,7 @@ def annotation_of(row: AnyRow) -> Annotation:
 
 
 def prediction_of(row: AnyRow) -> Prediction:
-    """A row of ``SELECT_PREDICTIONS``."""
+    """The record of a row of ``SELECT_PREDICTIONS``."""
     return Prediction(
         id=row.id,
         run=row.run,
@@ -77,7 +77,7 @@ def prediction_of(row: AnyRow) -> Prediction:
 
 
 def run_of(row: AnyRow) -> Run:
-    """A row of ``run``."""
+    """The record of a row of ``run``."""
     return Run(
         id=row.id,
         name=row.name,
@@ -108,7 +108,7 @@ def values_of_fit(whole: Mark | None, centre: Point | None, refusal: str | None)
 
 
 def load_categories(connection: Connection) -> dict[str, int]:
-    """Ids by name."""
+    """The ids of all categories, by name."""
     return {row.name: row.id for row in connection.execute(select(category.c.name, category.c.id))}
 
 
@@ -143,7 +143,7 @@ def require_image(connection: Connection, image_id: int) -> AnyRow:
 
 
 def latest_run_row(connection: Connection) -> AnyRow | None:
-    """The run made last."""
+    """The row of the run made last."""
     latest = select(func.max(run.c.id)).scalar_subquery()
     return connection.execute(select(run).where(run.c.id == latest)).first()
 

@@ -2,7 +2,7 @@
 
 ``image.caps``, ``image.ignored``, ``image.run``, ``image.predicted`` and ``image.version`` repeat what
 other tables hold, so that a list of 10 000 images needs no join over 500 000 caps; whoever changes
-annotations or predictions keeps them right (``storage.counting``).
+annotations or predictions keeps them right (``storage.db.counters``).
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ def _current(connection: Connection, config: Config, source: Path) -> str | None
 
 
 def _keep(database: Path, revision: str | None) -> None:
-    """Copies the database beside itself by SQLite's backup API, which is safe while others read it."""
+    """Backs the database up beside itself by SQLite's backup API, which is safe while others read it."""
     copy = database.with_name(f"{database.name}.before-{revision or 'first'}-upgrade")
     with closing(sqlite3.connect(database)) as source, closing(sqlite3.connect(copy)) as target:
         source.backup(target)

@@ -1,4 +1,4 @@
-"""The second half of an import: the rows, all within one transaction."""
+"""The second half of an import: stores its rows, all within one transaction."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from fairyring.storage.predictions import saw
 from fairyring.storage.records import Outline
 
 CHUNK = 500
-"""Numbers asked for in one statement."""
+"""How many uids are asked for in one statement."""
 
 
 class Labelled(Struct, frozen=True, kw_only=True):
@@ -33,7 +33,7 @@ class Labelled(Struct, frozen=True, kw_only=True):
 
 
 class Entered(Struct, frozen=True, kw_only=True):
-    """How many were new, and how many were there already."""
+    """How many caps were new, and how many were there already."""
 
     new: int = 0
     known: int = 0
@@ -60,7 +60,7 @@ def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
 
 
 def tell_more(connection: Connection, photo: Photo) -> None:
-    """Enters what an import has learnt about an image of the project."""
+    """Updates an image of the project with what an import says of it."""
     told = {name: getattr(photo, name) for name in ("light", "form", "split", "extra")}
     connection.execute(update(schema.image).where(schema.image.c.id == photo.id).values(**told))
 
@@ -72,7 +72,7 @@ def enter_annotations(
     categories: Mapping[str, dict[str, Any]],
     user: str,
 ) -> Entered:
-    """Adds annotations and their first journal rows; those whose number is taken are there already."""
+    """Adds annotations and their first journal rows, but for those whose uid is there already."""
     ids = _category_ids(connection, labelled, categories)
     owners = _owners(connection, [cap.uid or "" for item in labelled for cap in item.caps])
     annotations: list[dict[str, Any]] = []
@@ -107,7 +107,7 @@ def enter_predictions(
     categories: Mapping[str, dict[str, Any]],
     run_id: int,
 ) -> Entered:
-    """Adds what a run saw; what it holds already is not added again."""
+    """Adds a run's predictions, but for those that it holds already."""
     ids = _category_ids(connection, labelled, categories)
     rows: list[dict[str, Any]] = []
     table = schema.prediction
@@ -153,7 +153,7 @@ def _category_ids(
 
 
 def _owners(connection: Connection, uids: Sequence[str]) -> dict[str, int | None]:
-    """Which of these numbers are taken, and by which image."""
+    """The uids among these that are taken, each with the image it belongs to."""
     table = schema.annotation
     owners: dict[str, int | None] = {}
     for start in range(0, len(uids), CHUNK):
@@ -163,13 +163,13 @@ def _owners(connection: Connection, uids: Sequence[str]) -> dict[str, int | None
 
 
 def _own_number(cap: FoundCap, photo: Photo, owners: Mapping[str, int | None]) -> str:
-    """The number of the file, unless a cap in another photo has it."""
+    """The uid from the file, unless a cap in another photo has it."""
     uid = cap.uid or ""
     return uid if owners.get(uid, photo.id) == photo.id else content_number(cap.cap, photo=photo)
 
 
 def _seen(cap: FoundCap) -> Outline:
-    """A prediction has a visible outline: where a file gives only a shape, that of the shape."""
+    """The visible outline of a prediction; where a file gives only a whole outline, that one."""
     if cap.cap.visible or cap.whole is None:
         return cap.cap.visible
     return [polygon_of_shape(cap.whole)]

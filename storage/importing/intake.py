@@ -18,19 +18,19 @@ from fairyring.storage.importing.sources import Document, Sources
 
 
 class Intake(Struct, kw_only=True):
-    """What has passed, and what has not."""
+    """What an import has read and checked: what can be stored, and the problems."""
 
     photos: dict[str, Photo]
-    """Those of the project and the new ones, by base name."""
+    """Photos of the project and new ones, by base name."""
     seen: set[str] = field(default_factory=set)
-    """Names of the photos this import speaks of."""
+    """Base names of the photos that this import is about."""
     caps: dict[str, list[FoundCap]] = field(default_factory=dict)
-    """Checked against their photo, by its name."""
+    """Caps checked against their photo, by its name."""
     problems: list[Problem] = field(default_factory=list)
 
     @property
     def new_photos(self) -> list[Photo]:
-        """Those the project lacks, in the order of the import."""
+        """The photos that the project lacks, in the order of the import."""
         return [photo for photo in self.photos.values() if photo.id is None]
 
 
@@ -96,7 +96,7 @@ def _take_labels(
 
 
 def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str | None) -> Photo:
-    """Adds what a file says of a photo; what the project knows already is not changed by an import."""
+    """The photo with what a file says of it; an import changes nothing that the project knows already."""
     if photo.id is None:
         return structs.replace(
             photo,
@@ -115,7 +115,7 @@ def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str 
 
 
 def _photo_of(intake: Intake, document: Path, image: FoundImage) -> Photo:
-    """In the project by base name and size, then beside the file, then in ``images/`` beside it."""
+    """The photo of an image: in the project by base name and size, beside the file, or in ``images/``."""
     name = base_name(image.file_name)
     photo = intake.photos.get(name)
     if photo is not None and _has_size(photo, image):

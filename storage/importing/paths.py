@@ -1,4 +1,4 @@
-"""Takes in photos, COCO and labelme files: the good of them, in one transaction; the rest is reported."""
+"""Imports photos, COCO and labelme files: what is good in one transaction; the rest is reported."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class ImportReport(Struct, frozen=True, kw_only=True):
     predictions: int
     """New ones."""
     known: int
-    """Annotations or predictions that were there already."""
+    """How many annotations or predictions were there already."""
     run: int | None
     """The run that new predictions belong to."""
     problems: list[Problem]
@@ -104,7 +104,7 @@ def import_paths(
 
 @contextmanager
 def _no_garbage_collection() -> Iterator[None]:
-    """Millions of coordinates hold no cycles, and looking for some takes half the time of an import."""
+    """Pauses garbage collection: coordinates hold no cycles, and looking takes half the time of an import."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -169,7 +169,7 @@ def _store(
 
 
 def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:
-    """Somebody else may have imported it while this import was reading."""
+    """Whether somebody else has imported this photo while this import was reading."""
     other = photos.get(photo.file_name)
     if other is not None and other.sha256 != photo.sha256:
         raise StoreError(f"Another image called {photo.file_name} was imported just now; import again.")
@@ -177,7 +177,7 @@ def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:
 
 
 def _run_of(connection: Connection, sources: Sources) -> Run:
-    """The same files are the same run."""
+    """The run of imported predictions; the same files always belong to the same one."""
     names = [document.path.name for document in sources.documents]
     digests = sorted(document.sha256 for document in sources.documents)
     return add_run(

@@ -1,4 +1,4 @@
-"""Photos on their way into a project: found, examined, copied under a passing name, then put in place."""
+"""Photos on their way into a project: found, examined, copied into a temporary folder, then moved in."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Photo(Struct, frozen=True, kw_only=True):
     id: int | None = None
     """None until it is in the project."""
     source: Path | None = None
-    """Where a new one lies."""
+    """Path of a new photo; None for one of the project."""
     light: str | None = None
     form: str | None = None
     split: str | None = None
@@ -40,13 +40,13 @@ class Photo(Struct, frozen=True, kw_only=True):
 
 
 def photos_of_project(connection: Connection) -> dict[str, Photo]:
-    """What the project holds, by base name."""
+    """The photos of the project, by base name."""
     columns = [schema.image.c[name] for name in Photo.__struct_fields__ if name != "source"]
     return {row["file_name"]: Photo(**row) for row in connection.execute(select(*columns)).mappings()}
 
 
 def examine(path: Path) -> Photo:
-    """Looks at a photo from outside.
+    """Reads and checks a photo file.
 
     Raises:
         PhotoError: it cannot be read as an image.
@@ -85,7 +85,7 @@ class Staging:
         self._moved_in: list[Path] = []
 
     def copy(self, photo: Photo) -> None:
-        """Copies a new photo into the passing folder and onto the disk; one that lies in ``images/`` stays.
+        """Copies a new photo into the temporary folder and syncs it; one already in ``images/`` stays.
 
         Raises:
             StoreError: it cannot be read or written, or another file is in its way.
@@ -119,7 +119,7 @@ class Staging:
         self._moved_in.clear()
 
     def clear(self) -> None:
-        """Removes the passing folder."""
+        """Removes the temporary folder."""
         shutil.rmtree(self._folder, ignore_errors=True)
 
 

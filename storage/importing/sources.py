@@ -1,4 +1,4 @@
-"""Which files an import reads: the paths a person named, and what lies in folders among them."""
+"""Finds the files of an import: the paths that a person named, and the files in folders among them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Document(Struct, frozen=True, kw_only=True):
 
 
 class Sources(Struct, frozen=True, kw_only=True):
-    """What there is to import."""
+    """The files to import."""
 
     photos: list[Path] = field(default_factory=list)
     documents: list[Document] = field(default_factory=list)
@@ -97,5 +97,5 @@ def _parse(data: bytes, *, file: str, kind: ImportFormat) -> Found:
 
 
 def _looks_like_labelme(data: bytes) -> bool:
-    """A peek: labelme files have shapes, COCO files have annotations."""
+    """Guesses the format: labelme files have shapes, COCO files have annotations."""
     return b'"shapes"' in data and b'"annotations"' not in data

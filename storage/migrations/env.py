@@ -1,4 +1,4 @@
-"""Run by alembic: migrates over the connection that ``storage.upgrade`` hands in."""
+"""Called by alembic: migrates over the connection that ``storage.db.upgrade`` passes in."""
 
 from __future__ import annotations
 
