@@ -28,6 +28,7 @@ from fairyring.storage.formats.coco_writing import (
     prediction_entry,
     write_document,
 )
+from fairyring.storage.originals import PhotoChangedError
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
@@ -42,6 +43,8 @@ class ExportReport(Struct, frozen=True, kw_only=True):
     images: int
     annotations: int
     """How many annotations, or predictions where those were asked for."""
+    left_out: list[str]
+    """Sentences about images whose file is not the photo that was imported."""
 
 
 def export_coco(
@@ -55,7 +58,8 @@ def export_coco(
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
 
     The state is that of the moment at which the export began. Photos are copied as they are; one that is
-    turned by EXIF is written upright, as its coordinates are.
+    turned by EXIF is written upright, as its coordinates are. An image whose file is no longer the photo that
+    was imported is left out, as its labels would go out over another photo.
 
     Args:
         project: whence.
@@ -65,14 +69,10 @@ def export_coco(
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 
     Raises:
-        StoreError: ``out`` holds something or cannot be written, or a photo is gone.
+        StoreError: ``out`` holds something or cannot be written, a photo is gone, or no image is left.
     """
     with project.read() as connection, _made_at_once(out) as folder:
-        images = _images(connection, only)
-        (folder / "images").mkdir()
-        for done, image in enumerate(images):
-            progress(done, len(images), "Copying photos")
-            _copy(project.folder / image.path, folder / "images" / image.file_name)
+        images, left_out = _copy_photos(project, _images(connection, only), folder / "images", progress)
         categories = {row.name: row.extra for row in connection.execute(_CATEGORIES)}
         licenses: list[dict[str, Any]] = []
         head = {
@@ -91,7 +91,7 @@ def export_coco(
         numbers = {name: number for number, name in enumerate(categories, start=1)}
         with (folder / "instances.json").open("wb") as file:
             count = write_document(file, head, _entries(caps, numbers))
-    return ExportReport(images=len(images), annotations=count)
+    return ExportReport(images=len(images), annotations=count, left_out=left_out)
 
 
 _CATEGORIES = select(schema.category.c.name, schema.category.c.extra).order_by(schema.category.c.id)
@@ -165,9 +165,27 @@ def _made_at_once(out: Path) -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
+def _copy_photos(
+    project: Project, images: list[Image], folder: Path, progress: Progress
+) -> tuple[list[Image], list[str]]:
+    """The images whose photos were copied, and a sentence about each of the others."""
+    folder.mkdir()
+    copied: list[Image] = []
+    left_out: list[str] = []
+    for done, image in enumerate(images):
+        progress(done, len(images), "Copying photos")
+        try:
+            _copy(project.originals.path_of(image), folder / image.file_name)
+        except PhotoChangedError as error:
+            left_out.append(str(error))
+        else:
+            copied.append(image)
+    if left_out and not copied:
+        raise StoreError(f"Nothing was exported: {left_out[0]}")
+    return copied, left_out
+
+
 def _copy(source: Path, target: Path) -> None:
-    if not source.is_file():
-        raise StoreError(f"{source} is gone; put the photo back before exporting.")
     if probe(source).orientation == 1:
         shutil.copyfile(source, target)
         return

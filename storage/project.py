@@ -24,6 +24,7 @@ from fairyring.storage.db.engine import connect_engine, explained, warn_of_netwo
 from fairyring.storage.db.upgrade import upgrade
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import DATABASE, IMAGES, SETTINGS, is_project
+from fairyring.storage.originals import Originals
 
 T = TypeVar("T")
 
@@ -34,6 +35,7 @@ class Project:
     def __init__(self, folder: Path, url: str) -> None:
         self.folder = folder
         self.url = url
+        self.originals = Originals(folder)
         self._readers = connect_engine(url, write=False)
         self._writer = connect_engine(url, write=True)
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="store")

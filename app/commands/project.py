@@ -103,7 +103,7 @@ def export(
     with_ignored: Annotated[bool, typer.Option(help="Keep ignored caps, as iscrowd 1.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Write a data set others can load.
+    """Write a data set others can load, without images whose photo is no longer the one imported.
 
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
@@ -115,10 +115,15 @@ def export(
     with open_project(folder) as project, shown_on_stderr() as progress:
         fill_in(project, progress=progress)
         report = export_coco(project, out, only=only, with_ignored=with_ignored, progress=progress)
+    for sentence in report.left_out:
+        typer.echo(sentence, err=True)
+    left_out = len(report.left_out)
     if as_json:
-        typer.echo(json.dumps({"images": report.images, "annotations": report.annotations}))
+        figures = {"images": report.images, "annotations": report.annotations, "left_out": left_out}
+        typer.echo(json.dumps(figures))
     else:
-        typer.echo(f"{report.images} images, {report.annotations} annotations in {out}")
+        others = f"; {left_out} images left out" if left_out else ""
+        typer.echo(f"{report.images} images, {report.annotations} annotations in {out}{others}")
 
 
 def backup(

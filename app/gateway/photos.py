@@ -20,6 +20,7 @@ from fairyring.model import photo
 from fairyring.model.errors import FairyringError
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
+from fairyring.storage.originals import PhotoChangedError, PhotoGoneError
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
 
@@ -49,6 +50,14 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
             file = await anyio.to_thread.run_sync(
                 _file_for, project, image, width, cache, cache_limit, limiter=decoding
             )
+        except PhotoGoneError:
+            return PlainTextResponse(f"{image.file_name} is gone; put the photo back.", status_code=404)
+        except PhotoChangedError:
+            return PlainTextResponse(
+                f"{image.file_name} is no longer the photo that was imported, so it is not shown under its "
+                "labels; put that photo back.",
+                status_code=409,
+            )
         except FairyringError as error:
             return PlainTextResponse(str(error), status_code=404)
         return FileResponse(file, headers={"Cache-Control": FOR_EVER})
@@ -72,10 +81,8 @@ def _width_wanted(asked: str | None, image: Image) -> int | None:
 
 
 def _file_for(project: Project, image: Image, width: int | None, cache: Path, cache_limit: int) -> Path:
-    """The file to send. Raises FairyringError where the photo is gone or cannot be read."""
-    source = project.folder / image.path
-    if not source.is_file():
-        raise FairyringError(f"{source} is gone; put the photo back where it was.")
+    """The file to send. Raises FairyringError where the photo is gone, is another or cannot be read."""
+    source = project.originals.path_of(image)
     if width is None and is_directly_showable(source):
         return source
     made = cache / f"{image.sha256}-{width or 'full'}.jpg"

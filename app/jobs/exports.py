@@ -37,7 +37,7 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
             made = exports / f"{uuid4().hex}.zip"
             _zip(Path(folder) / "coco", made, progress)
         _drop_old(exports)
-        message = f"{report.images} images, {report.annotations} annotations."
+        message = " ".join([f"{report.images} images, {report.annotations} annotations.", *report.left_out])
         return Result(message, link=download_address(made.name))
 
     return work

@@ -15,7 +15,6 @@ import torch
 from sqlalchemy import Connection
 
 from fairyring.app.caps.whole_outlines import Whole, wholes_of
-from fairyring.app.jobs.originals import original_of
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
@@ -155,7 +154,7 @@ class _Run:
 
 
 def _predictions_of(network: Network, project: Project, image: Image) -> list[NewPrediction]:
-    pixels = photo.read(original_of(project, image))
+    pixels = photo.read(project.originals.path_of(image))
     found = [
         (detection.score, outline)
         for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))

@@ -9,7 +9,6 @@ from typing import Any, TypeVar
 
 from sqlalchemy import Connection
 
-from fairyring.app.jobs.originals import original_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
 from fairyring.model.progress import Progress, silent
@@ -78,7 +77,7 @@ def labels_of_project(project: Project, *, progress: Progress = silent) -> Label
     examples = []
     for done, (image, caps) in enumerate(labelled):
         progress(done, len(labelled), "Looking at photos")
-        examples.append(_example(original_of(project, image), image, [a.cap for a in caps]))
+        examples.append(_example(project.originals.path_of(image), image, [a.cap for a in caps]))
     entries = [_entry_of(image, caps) for image, caps in labelled]
     return Labels(
         examples=examples,

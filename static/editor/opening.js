@@ -61,7 +61,7 @@ export class Opening {
     photos
       .open(photo, image)
       .then(() => frame.whenComplete(() => this.#drawn(asked, ahead)))
-      .catch((error) => say(`${image.file_name}: ${error.message}`, "error"));
+      .catch((error) => say(error.message, "error"));
   }
 
   /** @type {(asked: number, ahead: string[]) => void} */

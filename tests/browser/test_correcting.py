@@ -58,6 +58,18 @@ def test_the_page_shows_a_photo_with_predictions_and_nothing_corrected(tab: Tab)
     tab.page.get_by_text("predicted by lite0").first.wait_for()
 
 
+def test_the_page_says_so_where_the_file_is_another_photo(
+    server: Server, open_tab: Callable[..., Tab], project: Path
+) -> None:
+    tab = open_tab(server)
+    photo = project / "images" / tab.state("image.file_name")
+    photo.write_bytes(photo.read_bytes() + b" ")
+
+    again = open_tab(server)
+
+    again.page.get_by_text(f"{photo.name} is no longer the photo that was imported").first.wait_for()
+
+
 def test_accepting_a_prediction_makes_it_an_annotation(tab: Tab, project: Path) -> None:
     prediction = a_free_prediction(tab)
     uid = promote(tab)

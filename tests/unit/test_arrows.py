@@ -28,7 +28,7 @@ DRAWINGS = {
         importing  exporting
         journal  formats  migrations
         project  images  contents  predictions  comparisons  derived
-        db  cap_validity  open_predictions
+        db  cap_validity  open_predictions  originals
         records  errors  folder  choices
     """,
     "model": """

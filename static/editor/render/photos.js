@@ -113,7 +113,7 @@ export class Photos {
 /** @type {(url: string) => Promise<ImageBitmap>} */
 async function decoded(url) {
   const response = await fetch(url);
-  if (!response.ok) throw new Error(`The photo could not be loaded (${response.status}).`);
+  if (!response.ok) throw new Error(await response.text());
   return createImageBitmap(await response.blob());
 }
 

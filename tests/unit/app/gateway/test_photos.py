@@ -143,7 +143,28 @@ def test_a_photo_taken_away_is_named_in_the_answer(port: int, project: Project) 
     )
     answer = httpx.get(f"http://127.0.0.1:{port}{photo_address(found)}", headers=ADA)
     assert answer.status_code == 404
-    assert "gone.jpg" in answer.text
+    assert answer.text == "bed_1.jpg is gone; put the photo back."
+
+
+@pytest.mark.parametrize("width", ["", "?w=160"])
+def test_another_photo_in_the_place_of_one_is_not_sent_as_that(
+    port: int, project: Project, tmp_path: Path, width: str
+) -> None:
+    file, other = tmp_path / "bed_3.jpg", tmp_path / "bed_6.jpg"
+    quarters(320, 240).save(file)
+    quarters(320, 240).transpose(PIL.Image.Transpose.ROTATE_180).save(other)
+    url = added(project, file)
+    (project.images / "bed_3.jpg").write_bytes(other.read_bytes())
+
+    answer = httpx.get(f"http://127.0.0.1:{port}{url}{width}", headers=ADA)
+
+    assert answer.status_code == 409
+    assert answer.text.startswith("bed_3.jpg is no longer the photo that was imported")
+    assert "cache-control" not in answer.headers
+    assert str(project.folder) not in answer.text
+
+    (project.images / "bed_3.jpg").write_bytes(file.read_bytes())
+    assert_quarters(fetch(port, f"{url}{width}")[1])
 
 
 def test_the_cache_drops_what_was_longest_unused(tmp_path: Path) -> None:

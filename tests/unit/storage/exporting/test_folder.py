@@ -1,5 +1,6 @@
 """The folder an export fills: the document, the photos upright, and nothing if it fails."""
 
+import json
 from concurrent.futures import CancelledError
 
 import cv2
@@ -9,6 +10,7 @@ from PIL import Image
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.exporting import export_coco
+from fairyring.storage.images import get_image
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap
@@ -75,3 +77,29 @@ def test_an_export_that_fails_leaves_nothing_behind(beds, out, tmp_path):
     with pytest.raises(StoreError, match=r"bed_1\.png is gone; put the photo back"):
         export_coco(beds, out)
     assert sorted(tmp_path.iterdir()) == before
+
+
+def test_an_image_whose_file_is_another_photo_is_left_out_and_named(beds, out):
+    for image in (1, 2):
+        store(beds, Cap(visible=[SQUARE]), image=image)
+    with beds.read() as connection:
+        wrong, other = (get_image(connection, number).file_name for number in (1, 2))
+    (beds.images / wrong).write_bytes((beds.images / other).read_bytes())
+
+    report = export_coco(beds, out)
+
+    (sentence,) = report.left_out
+    assert str(beds.images / wrong) in sentence
+    assert (report.images, report.annotations) == (1, 1)
+    assert [file.name for file in (out / "images").iterdir()] == [other]
+    document = json.loads((out / "instances.json").read_text())
+    assert [image["file_name"] for image in document["images"]] == [other]
+    assert [annotation["image_id"] for annotation in document["annotations"]] == [1]
+
+
+def test_where_every_photo_is_another_nothing_is_exported(beds, out):
+    store(beds, Cap(visible=[SQUARE]), image=3)
+    (beds.images / "bed_10.png").write_bytes(b"no photo at all")
+    with pytest.raises(StoreError, match=r"Nothing was exported: .*bed_10\.png is no longer the photo"):
+        export_coco(beds, out)
+    assert not out.exists()
