@@ -15,6 +15,7 @@ from typing import IO
 import msgspec
 from msgspec import Struct
 
+from fairyring.model.whole_files import written_whole
 from fairyring.storage.errors import StoreError
 
 UNFINISHED = "unfinished"
@@ -55,9 +56,8 @@ def begun(folder: Path, demo: Begun) -> Iterator[Begun]:
     with _locked(note.with_name(LOCK), folder):
         found = begun_in(folder)
         if found is None:
-            fresh = note.with_suffix(".part")
-            fresh.write_bytes(msgspec.json.encode(demo))
-            fresh.replace(note)
+            with written_whole(note) as fresh:
+                fresh.write_bytes(msgspec.json.encode(demo))
         yield found or demo
         # The note first: what is left over without it is no demo to go on with.
         note.unlink()

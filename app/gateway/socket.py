@@ -17,7 +17,7 @@ from fairyring.app.live.editing import Refits, apply_edits
 from fairyring.app.live.opening import open_image, reopen, set_status, step
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
 from fairyring.app.live.workspace import Workspace
-from fairyring.app.panels.callbacks import UNEXPECTED
+from fairyring.app.panels.callbacks import tell_errors
 from fairyring.app.panels.layers import toggle
 from fairyring.app.panels.layout import build_panel
 from fairyring.app.protocol import (
@@ -37,7 +37,6 @@ from fairyring.app.protocol import (
     Toggle,
     Welcome,
 )
-from fairyring.model.errors import FairyringError
 from fairyring.storage.records import Refused
 
 log = logging.getLogger(__name__)
@@ -147,13 +146,7 @@ async def _handle(workspace: Workspace, session: Session, refits: Refits, text: 
     except msgspec.DecodeError as error:
         _refuse(session, text, reason=str(error))
         return
-    try:
-        await _carry_out(workspace, session, refits, message)
-    except FairyringError as error:
-        session.notify(str(error), "error")
-    except Exception:
-        log.exception("A message of %s could not be carried out.", session.user)
-        session.notify(UNEXPECTED, "error")
+    await tell_errors(session, lambda: _carry_out(workspace, session, refits, message))
 
 
 async def _carry_out(workspace: Workspace, session: Session, refits: Refits, message: Incoming) -> None:

@@ -12,6 +12,7 @@ from fairyring.app.addresses import download_address
 from fairyring.app.caps.whole_outlines import fill_in
 from fairyring.app.jobs.runner import Result
 from fairyring.model.progress import Progress
+from fairyring.model.whole_files import written_whole
 from fairyring.storage.choices import Only
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
@@ -46,15 +47,10 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
 def _zip(folder: Path, made: Path, progress: Progress) -> None:
     """Zips a folder without compressing: photos are compressed already."""
     files = sorted(path for path in folder.rglob("*") if path.is_file())
-    partial = made.with_suffix(".partial")
-    try:
-        with ZipFile(partial, "w", ZIP_STORED) as archive:
-            for done, file in enumerate(files):
-                progress(done, len(files), "Packing")
-                archive.write(file, file.relative_to(folder))
-        partial.replace(made)
-    finally:
-        partial.unlink(missing_ok=True)
+    with written_whole(made) as fresh, ZipFile(fresh, "w", ZIP_STORED) as archive:
+        for done, file in enumerate(files):
+            progress(done, len(files), "Packing")
+            archive.write(file, file.relative_to(folder))
 
 
 def _drop_old(exports: Path) -> None:

@@ -31,18 +31,19 @@ def person_did(session: Session, work: Callable[[], Awaitable[None]]) -> Callbac
 
     async def callback(event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:
-            asyncio.run_coroutine_threadsafe(_reported(session, work), loop)
+            asyncio.run_coroutine_threadsafe(tell_errors(session, work), loop)
 
     return callback
 
 
-async def _reported(session: Session, work: Callable[[], Awaitable[None]]) -> None:
+async def tell_errors(session: Session, work: Callable[[], Awaitable[None]]) -> None:
+    """Does ``work``; shows the person at the tab what goes wrong."""
     try:
         await work()
     except FairyringError as error:
         session.notify(str(error), "error")
     except Exception:
-        log.exception("Something in the panel of %s failed.", session.user)
+        log.exception("Something that %s asked for failed.", session.user)
         session.notify(UNEXPECTED, "error")
 
 

@@ -21,6 +21,7 @@ from torch import Tensor
 from fairyring.model.errors import FairyringError
 from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.whole_files import written_whole
 
 FORMAT = "fairyring-pr-solov2-1"
 
@@ -44,7 +45,7 @@ class Weights:
 def save_weights(
     path: Path, state: Mapping[str, Tensor], config: NetworkConfig, *, card: dict[str, Any]
 ) -> str:
-    """Writes a network's state beside ``path`` and renames, and returns the digest.
+    """Writes a network's state into the file ``path``, whole or not at all, and returns its digest.
 
     Floating tensors are stored in half precision; a value it cannot hold raises WeightsError.
     """
@@ -57,12 +58,11 @@ def save_weights(
         "digest": digest,
         "card": msgspec.json.encode(card).decode(),
     }
-    beside = path.with_name(path.name + ".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        # save_file would let nobody but its owner read the file.
-        beside.write_bytes(save(stored, metadata=metadata))
-        beside.replace(path)
+        with written_whole(path) as fresh:
+            # save_file would let nobody but its owner read the file.
+            fresh.write_bytes(save(stored, metadata=metadata))
     except (OSError, SafetensorError) as error:
         raise WeightsError(f"{path} cannot be written: {error}.") from error
     return digest

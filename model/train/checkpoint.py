@@ -8,6 +8,7 @@ from typing import Any
 import torch
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.whole_files import written_whole
 
 CHECKPOINT = "last.pt"
 
@@ -17,11 +18,10 @@ class CheckpointError(FairyringError):
 
 
 def save_checkpoint(folder: Path, state: dict[str, Any]) -> None:
-    """Writes a new file and renames it, so that a kill leaves the old one. Raises CheckpointError."""
-    beside = folder / (CHECKPOINT + ".part")
+    """Writes a checkpoint, whole or not at all: a kill leaves the old one. Raises CheckpointError."""
     try:
-        torch.save(state, beside)
-        beside.replace(folder / CHECKPOINT)
+        with written_whole(folder / CHECKPOINT) as fresh:
+            torch.save(state, fresh)
     except (OSError, RuntimeError) as error:
         raise CheckpointError(f"{folder / CHECKPOINT} cannot be written: {error}.") from error
 

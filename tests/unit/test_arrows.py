@@ -37,7 +37,7 @@ DRAWINGS = {
         contour  predict
         network
         geometry  photo  device
-        errors  progress  light_and_form
+        errors  progress  light_and_form  whole_files
     """,
 }
 OTHER_PACKAGES = {
