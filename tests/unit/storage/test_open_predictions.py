@@ -54,7 +54,7 @@ def test_a_mark_without_an_outline_covers_what_it_encloses():
     assert is_offered(box(40, 11, 58, 29), visible=[], mark=mark, whole=mark)
 
 
-def test_nothing_small_is_offered_in_a_region_people_ignore():
+def test_a_small_prediction_in_an_ignored_region_is_not_offered():
     assert not is_offered(box(10, 10, 14, 14), ignored=True)
     assert is_offered(box(28, 10, 32, 14), ignored=True), "half of it lies outside"
 

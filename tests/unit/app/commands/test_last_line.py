@@ -31,7 +31,7 @@ def test_what_is_logged_and_warned_of_on_a_terminal_goes_above_it() -> None:
     assert 0 < written.index("a warning") < shown
 
 
-def test_elsewhere_it_is_written_once() -> None:
+def test_where_stderr_is_no_terminal_the_line_is_written_once() -> None:
     done = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, check=True)
     assert done.stderr.count("open at http://localhost:8080\n") == 1
     assert done.stdout == ""

@@ -17,7 +17,7 @@ def packed(**fields: Any) -> bytes:
     return msgspec.msgpack.encode(fields)
 
 
-def test_a_camera_passes() -> None:
+def test_a_message_about_the_camera_passes() -> None:
     assert may_pass(packed(**CAMERA))
     assert may_pass(packed(**CAMERA | {"near": 1, "position": [0, 1, 2]}))
 
@@ -48,7 +48,7 @@ def test_the_new_value_of_a_control_passes(value: object) -> None:
         {},
     ],
 )
-def test_nothing_else_passes(message: dict[str, Any]) -> None:
+def test_no_other_message_passes(message: dict[str, Any]) -> None:
     assert not may_pass(packed(**message))
 
 

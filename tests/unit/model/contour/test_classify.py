@@ -22,7 +22,7 @@ def disc(radius: float = 40.0, bite: tuple[float, float, float] | None = None) -
     return Silhouette(mask.astype(np.uint8), 0, 0)
 
 
-def test_a_disc_is_regular():
+def test_a_disc_has_no_defects():
     contour = contours_of(disc())[0]
     assert all(Limits().ignore(d, length=len(contour), area=5026) for d in defects_of(contour))
 

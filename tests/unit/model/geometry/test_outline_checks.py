@@ -38,7 +38,7 @@ def test_a_good_outline_comes_back_as_it_is_in_floats() -> None:
     assert {type(value) for part in checked for value in part} == {float}
 
 
-def test_repeated_vertices_go() -> None:
+def test_repeated_vertices_are_removed() -> None:
     closed = [10, 10, 10, 10, 50, 10, 50, 50, 10, 50, 10, 10]
 
     (part,) = check_outline([closed], width=100, height=80)
@@ -203,7 +203,7 @@ def test_what_is_no_mark_is_refused_with_the_reason(mark: Mark, reason: str) -> 
         check_mark(mark, width=100, height=80)
 
 
-def test_good_marks_pass() -> None:
+def test_good_marks_are_returned_in_standard_form() -> None:
     assert check_mark(Circle(50, 40, 5), width=100, height=80) == Circle(50, 40, 5)
     assert check_mark(Ellipse(50, 40, 5, 9, 30), width=100, height=80) == Ellipse(50, 40, 9, 5, 120)
     assert check_mark(Polygon(SQUARE), width=100, height=80) == Polygon(SQUARE)

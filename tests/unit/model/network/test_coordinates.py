@@ -18,7 +18,7 @@ def test_a_crop_keeps_the_coordinates_of_the_place_it_was_cut_from() -> None:
     torch.testing.assert_close(crop[:, 3:], photo[:, 3:, 4:12, 8:24])
 
 
-def test_coordinates_by_hand() -> None:
+def test_coordinates_are_those_worked_out_by_hand() -> None:
     features = torch.ones(2, 1, 2, 4)
     told = with_coordinates(features, torch.tensor([[-640.0, -360.0], [0.0, 0.0]]), extent=(720, 1280))
     assert told[0, 1, 0].tolist() == pytest.approx([-0.75, -0.25, 0.25, 0.75])

@@ -19,7 +19,7 @@ SQUARES = ((slice(2, 8), slice(3, 11)), (slice(20, 30), slice(18, 26)))
 """Rows and columns, cells of the mask."""
 
 
-def scene(cells: dict[tuple[int, int, int], tuple[float, int]], *, strength: float = 8.0) -> Outputs:
+def outputs_of(cells: dict[tuple[int, int, int], tuple[float, int]], *, strength: float = 8.0) -> Outputs:
     """Outputs of two images; the second one's channels e are ±1 inside and outside of square e.
 
     ``cells``: level, row, column → logit, and the square that the cell's kernel asks for.
@@ -40,7 +40,7 @@ def sigmoid(x: float) -> float:
 
 
 def test_two_squares_come_out_best_first() -> None:
-    outputs = scene({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
+    outputs = outputs_of({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
     found = decode(outputs, 1, CONFIG, DecodeConfig())
     expected = [sigmoid(3) * sigmoid(8), sigmoid(1) * sigmoid(8)]
     assert found.scores.tolist() == pytest.approx(expected, rel=1e-5)
@@ -49,7 +49,7 @@ def test_two_squares_come_out_best_first() -> None:
 
 
 def test_nothing_in_a_photo_is_no_instances() -> None:
-    outputs = scene({(0, 1, 2): (1.0, 0)})
+    outputs = outputs_of({(0, 1, 2): (1.0, 0)})
     found = decode(outputs, 0, CONFIG, DecodeConfig())
     assert found.scores.shape == (0,)
     assert found.logits.shape == (0, 32, 32)
@@ -57,20 +57,20 @@ def test_nothing_in_a_photo_is_no_instances() -> None:
 
 
 def test_cells_that_are_not_sure_enough_are_left_out() -> None:
-    outputs = scene({(0, 1, 2): (math.log(0.11 / 0.89), 0), (0, 6, 5): (math.log(0.09 / 0.91), 1)})
+    outputs = outputs_of({(0, 1, 2): (math.log(0.11 / 0.89), 0), (0, 6, 5): (math.log(0.09 / 0.91), 1)})
     assert decode(outputs, 1, CONFIG, DecodeConfig()).scores.tolist() == pytest.approx(
         [0.11 * sigmoid(8)], rel=1e-4
     )
 
 
 def test_a_neighbour_of_a_better_cell_is_no_instance_of_its_own() -> None:
-    outputs = scene({(0, 6, 5): (3.0, 1), (0, 6, 6): (2.0, 1)})
+    outputs = outputs_of({(0, 6, 5): (3.0, 1), (0, 6, 6): (2.0, 1)})
     assert len(decode(outputs, 1, CONFIG, DecodeConfig()).scores) == 1
     assert len(decode(outputs, 1, CONFIG, DecodeConfig(window=1)).scores) == 2
 
 
 def test_the_same_cap_seen_by_two_levels_is_lowered_once() -> None:
-    outputs = scene({(0, 6, 5): (3.0, 1), (1, 4, 4): (2.0, 1)})
+    outputs = outputs_of({(0, 6, 5): (3.0, 1), (1, 4, 4): (2.0, 1)})
     found = decode(outputs, 1, CONFIG, DecodeConfig())
     expected = [sigmoid(3) * sigmoid(8), sigmoid(2) * sigmoid(8) * math.exp(-2)]
     assert found.scores.tolist() == pytest.approx(expected, rel=1e-4)
@@ -80,34 +80,34 @@ def test_the_same_cap_seen_by_two_levels_is_lowered_once() -> None:
 
 def test_masks_no_larger_than_their_levels_stride_are_dropped() -> None:
     # Square 0 has 48 cells, at levels of stride 8 and 32; a speck of 8 cells is no cap, one of 9 is.
-    outputs = scene({(4, 0, 0): (3.0, 0)})
+    outputs = outputs_of({(4, 0, 0): (3.0, 0)})
     assert len(decode(outputs, 1, CONFIG, DecodeConfig()).scores) == 1
     for count, instances in ((8, 0), (9, 1)):
-        outputs = scene({(0, 0, 0): (3.0, 2)})
+        outputs = outputs_of({(0, 0, 0): (3.0, 2)})
         outputs.feature[1, 2, 0, :count] = 1.0
         assert len(decode(outputs, 1, CONFIG, DecodeConfig()).scores) == instances
     # At half the resolution a cell of the mask is four times as large.
-    outputs = scene({(0, 0, 0): (3.0, 2)})
+    outputs = outputs_of({(0, 0, 0): (3.0, 2)})
     outputs.feature[1, 2, 0, :3] = 1.0
     assert len(decode(outputs, 1, replace(CONFIG, reduction=2), DecodeConfig()).scores) == 1
 
 
 def test_what_lies_beyond_a_levels_reach_is_no_part_of_its_caps() -> None:
     # Level 0 reaches 2/3 · 56 = 37.3 photo pixels, 9.3 cells; the middle of its last cell is at 30 cells.
-    outputs = scene({(0, 7, 7): (3.0, 0)})
+    outputs = outputs_of({(0, 7, 7): (3.0, 0)})
     outputs.feature[1, 0] = 1.0
     found = decode(outputs, 1, CONFIG, DecodeConfig())
     assert boxes_of(found.logits > 0).tolist() == [[21, 21, 11, 11]]
 
 
-def test_no_more_than_asked_for() -> None:
-    outputs = scene({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
+def test_no_more_instances_come_out_than_asked_for() -> None:
+    outputs = outputs_of({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
     assert len(decode(outputs, 1, CONFIG, DecodeConfig(most=1)).scores) == 1
     assert len(decode(outputs, 1, CONFIG, DecodeConfig(most_before_nms=1)).scores) == 1
 
 
 def test_without_points_logits_are_enlarged() -> None:
-    outputs = scene({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
+    outputs = outputs_of({(0, 1, 2): (1.0, 0), (0, 6, 5): (3.0, 1)})
     found = decode(outputs, 1, CONFIG, DecodeConfig())
     canvas = torch.zeros(2, 128, 128, dtype=torch.bool)
     for nth, (x, y, logits) in enumerate(refine(None, None, found, image=1, mask_stride=4)):

@@ -57,7 +57,7 @@ def test_levels_have_their_strides_and_channels() -> None:
 
 @pytest.mark.parametrize("kernel", [3, 5])
 @pytest.mark.parametrize("stride", [1, 2])
-def test_padding_is_tensorflows(kernel: int, stride: int) -> None:
+def test_a_convolution_pads_as_tensorflow_does(kernel: int, stride: int) -> None:
     torch.manual_seed(0)
     conv = SameConv(4, 4, kernel, stride, groups=4, bias=False)
     x = torch.randn(1, 4, 10, 14)

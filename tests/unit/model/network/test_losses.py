@@ -19,7 +19,7 @@ from fairyring.model.network.losses import dice_loss, focal_loss, point_loss
         (math.log(3), False, 0.75 * 0.75**2 * -math.log(0.25)),
     ],
 )
-def test_focal_loss_by_hand(logit: float, positive: bool, expected: float) -> None:
+def test_the_focal_loss_is_that_worked_out_by_hand(logit: float, positive: bool, expected: float) -> None:
     loss = focal_loss(torch.tensor([logit]), torch.tensor([positive]))
     assert float(loss) == pytest.approx(expected, rel=1e-5)
 
@@ -29,7 +29,7 @@ def test_focal_loss_adds_up_over_cells() -> None:
     assert float(loss) == pytest.approx((2 * 0.25 + 3 * 0.75) * 0.25 * math.log(2), rel=1e-5)
 
 
-def test_dice_loss_by_hand() -> None:
+def test_the_dice_loss_is_that_worked_out_by_hand() -> None:
     sure = torch.tensor([[[40.0, 40.0], [-40.0, -40.0]]])
     quarter = torch.tensor([[[1.0, 0.0], [0.0, 0.0]]])
     assert dice_loss(sure, quarter).tolist() == pytest.approx([1 / 3])
@@ -54,7 +54,7 @@ def test_dice_loss_of_nothing_against_nothing_is_finite() -> None:
     assert torch.isfinite(logits.grad).all()
 
 
-def test_point_loss_by_hand_and_without_points() -> None:
+def test_the_point_loss_is_that_worked_out_by_hand_and_0_without_points() -> None:
     # Soft label ¼ at p = ¾: -(¼ ln ¾ + ¾ ln ¼); label 1 at p = ½: ln 2.
     loss = point_loss(torch.tensor([math.log(3), 0.0]), torch.tensor([0.25, 1.0]))
     first = -(0.25 * math.log(0.75) + 0.75 * math.log(0.25))

@@ -28,7 +28,7 @@ def by_grid_sample(maps: Tensor, owners: Tensor, points: Tensor, stride: float) 
 
 @pytest.mark.parametrize("shape", [(5, 7), (1, 1), (1, 6), (4, 1), (2, 2)])
 @pytest.mark.parametrize("stride", [1, 4])
-def test_sampling_is_pytorchs(shape: tuple[int, int], stride: int) -> None:
+def test_maps_are_sampled_as_pytorch_samples_them(shape: tuple[int, int], stride: int) -> None:
     generator = torch.Generator().manual_seed(1)
     maps = torch.randn(3, 2, *shape, generator=generator)
     extent = torch.tensor([shape[1], shape[0]]) * stride

@@ -20,12 +20,12 @@ from fairyring.model.predict.calibration import (
 scores = st.lists(st.floats(0, 1), min_size=1, max_size=30).map(np.array)
 
 
-def test_no_change_is_no_change() -> None:
+def test_a_calibration_without_change_leaves_scores_as_they_are() -> None:
     some = np.array([0.05, 0.3, 0.5, 0.99])
     assert calibrated(some, Calibration()) == pytest.approx(some, abs=1e-12)
 
 
-def test_a_line_by_hand() -> None:
+def test_a_calibrated_score_is_that_worked_out_by_hand() -> None:
     # Odds of 3 to 1, squared and doubled: 18 to 1.
     assert calibrated(np.array([0.75]), Calibration(2.0, np.log(2))) == pytest.approx([18 / 19])
 

@@ -54,11 +54,11 @@ def test_a_window_outside_of_the_photo_is_left_empty() -> None:
         assert 0 <= cut.y <= 4
 
 
-def test_no_windows_are_none() -> None:
+def test_no_windows_resolve_to_none() -> None:
     assert resolve_overlaps([], [], width=4, height=4) == []
 
 
-def test_a_speck_claims_nothing_and_a_second_part_half_as_large_does() -> None:
+def test_a_component_under_half_of_the_largest_is_left_out_and_a_larger_one_kept() -> None:
     cap = window(0, 0, [[1.0] * 6])
     two_parts = [[-1.0, 3.0, -1.0, 3.0, 3.0, 3.0]]
     resolved, thief = resolve_overlaps([cap, window(0, 0, two_parts)], [0.9, 0.8], width=6, height=1)

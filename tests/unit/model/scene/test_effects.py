@@ -70,7 +70,7 @@ def test_brown_caps_are_brown_and_white_ones_white() -> None:
 
 
 @pytest.mark.parametrize("mark", ["scales", "spots", "soil", "damage"])
-def test_marks_on_caps_show(mark: str) -> None:
+def test_scales_spots_soil_and_damage_raise_the_contrast_on_caps(mark: str) -> None:
     clean = {"scales": 0, "spots": 0, "soil": 0, "damage": 0}
     assert contrast_on_caps(rendered({"skin": clean | {mark: 1}})) > contrast_on_caps(
         rendered({"skin": clean})

@@ -45,7 +45,7 @@ def test_nothing_to_resume_is_said(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"hello", pickle.dumps({"iteration": 3}, protocol=2)])
-def test_damage_is_said(tmp_path: Path, content: bytes) -> None:
+def test_a_damaged_checkpoint_is_refused(tmp_path: Path, content: bytes) -> None:
     (tmp_path / CHECKPOINT).write_bytes(content)
     with pytest.raises(CheckpointError, match="damaged"):
         load_checkpoint(tmp_path, device=CPU)

@@ -108,7 +108,7 @@ def test_masks_lie_where_the_photo_shows_their_caps(
     assert (shown != told).sum() <= max(1.5 * LEAST_VISIBLE, 0.06 * shown.sum())
 
 
-def test_boxes_and_mass_centres_by_hand() -> None:
+def test_boxes_and_mass_centres_are_those_worked_out_by_hand() -> None:
     made = cut_crop(
         np.zeros((32, 32, 3), np.uint8),
         [[[4.0, 6.0, 14.0, 6.0, 14.0, 10.0, 4.0, 10.0]], [[20.0, 20.0, 30.0, 20.0, 30.0, 30.0]]],

@@ -129,7 +129,7 @@ def test_ignored_regions_are_not_learnt(examples: list[Example]) -> None:
     assert len(caps.masks) == 2
 
 
-def test_nothing_to_learn_from_is_said(examples: list[Example]) -> None:
+def test_examples_without_a_labelled_cap_are_refused(examples: list[Example]) -> None:
     bare = Example(path=examples[0].path, width=96, height=64, caps=[])
     for none in (
         [],

@@ -36,11 +36,11 @@ PAPER = Recipe()
         (4999, 0.0001),
     ],
 )
-def test_the_papers_rate_by_hand(iteration: int, rate: float) -> None:
+def test_the_papers_rates_are_those_worked_out_by_hand(iteration: int, rate: float) -> None:
     assert rate_at(iteration, PAPER) == pytest.approx(rate)
 
 
-def test_a_cosine_by_hand() -> None:
+def test_rates_along_a_cosine_are_those_worked_out_by_hand() -> None:
     recipe = Recipe(schedule="cosine", iterations=300, warm_up=10, rate=2.0)
     assert rate_at(0, recipe) == pytest.approx(0.002)
     assert rate_at(100, recipe) == pytest.approx(1.5)

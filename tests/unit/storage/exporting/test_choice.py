@@ -36,7 +36,7 @@ def test_ignored_caps_stay_out_unless_they_are_asked_for(beds, out, tmp_path):
     assert [(a["iscrowd"], a.get("ignored")) for a in kept] == [(0, None), (1, True)]
 
 
-def test_deleted_caps_stay_out(beds, out):
+def test_deleted_caps_are_not_exported(beds, out):
     store(beds, Cap(visible=[SQUARE]), Cap(visible=[TRIANGLE]))
     commit(beds, [Derived(edit=Edit(id="d", annotation="1_0", image=1, base=1, cap=None))], user="ann")
     assert [a["uid"] for a in export(beds, out)["annotations"]] == ["1_1"]

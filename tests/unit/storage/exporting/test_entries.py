@@ -68,7 +68,7 @@ def test_a_circle_without_an_outline_is_drawn_within_a_tenth_of_a_pixel(beds, ou
 
 
 @pytest.mark.parametrize("loader", [COCO, faster_coco_eval.COCO])
-def test_others_load_it(beds, out, loader):
+def test_other_libraries_load_an_export(beds, out, loader):
     store(beds, Cap(visible=[SQUARE, TRIANGLE]), Cap(visible=[], mark=Circle(50, 40, 9)))
     export(beds, out, with_ignored=True)
     coco = loader(str(out / "instances.json"))
