@@ -9,7 +9,8 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from fairyring.storage.records import Annotation, Cap, Edit, ImageContents, Outcome, Prediction, Shape, Status
+from fairyring.model.geometry.shapes import Fit
+from fairyring.storage.records import Annotation, Cap, Edit, ImageContents, Outcome, Prediction, Status
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
@@ -136,15 +137,12 @@ class Arc(Struct, frozen=True, kw_only=True):
     """Points along the outline as a flat list x0, y0, x1, y1, …; pixels."""
 
 
-class Fit(FromServer, frozen=True, tag="fit"):
+class Fitted(FromServer, frozen=True, tag="fit"):
     """Answers Refit."""
 
     seq: int
     annotation: str
-    whole: Shape | None
-    centre: tuple[float, float] | None
-    centre_sd: tuple[float, float] | None = None
-    """One standard deviation of the centre along x and y, pixels; None for a mark."""
+    fit: Fit
     arcs: list[Arc] = field(default_factory=list)
     """The visible outline cut up, in order; empty for a mark."""
     note: str = ""
@@ -173,4 +171,4 @@ class Notice(FromServer, frozen=True, tag="notice"):
     level: Literal["info", "warning", "error"] = "info"
 
 
-Outgoing = Welcome | Show | Outcomes | Changed | Predicted | Fit | Layers | Command | Notice
+Outgoing = Welcome | Show | Outcomes | Changed | Predicted | Fitted | Layers | Command | Notice

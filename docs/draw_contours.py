@@ -9,7 +9,8 @@ import numpy as np
 
 from fairyring.model.contour.classify import Limits, defects_of
 from fairyring.model.contour.paper import reconstruct_contour
-from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.reconstruct import reconstruct_silhouettes
+from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, contours_of, silhouette_of_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, Points, points_of_part, polygon_of_shape
 from fairyring.model.scene.bed import Bed, render_bed
@@ -77,13 +78,14 @@ def _whole_bed(bed: Bed, found: list[Reconstruction]) -> Picture:
     scale = 1.5
     picture = cv2.resize(bed.image, None, fx=scale, fy=scale, interpolation=cv2.INTER_CUBIC)
     for each in found:
-        if each.whole is None or each.centre is None or each.centre_sd is None:
+        fit = each.fit
+        if fit.whole is None or fit.centre is None or fit.centre_sd is None:
             continue
-        _polyline(picture, points_of_part(polygon_of_shape(each.whole)) * scale, FIT, closed=True)
+        _polyline(picture, points_of_part(polygon_of_shape(fit.whole)) * scale, FIT, closed=True)
         for arc in each.arcs:
             _polyline(picture, arc.points * scale, KINDS[arc.kind], thick=2)
-        axes = tuple(max(2, round(2 * scale * sd)) for sd in each.centre_sd)
-        centre = tuple(round(scale * value) for value in each.centre)
+        axes = tuple(max(2, round(2 * scale * sd)) for sd in fit.centre_sd)
+        centre = tuple(round(scale * value) for value in fit.centre)
         cv2.ellipse(picture, centre, axes, 0, 0, 360, TRUTH, 1, cv2.LINE_AA)
     return picture
 
@@ -92,7 +94,7 @@ def _failures(bed: Bed, found: list[Reconstruction]) -> Picture:
     """The caps inside the image whose centres are furthest off, in diameters."""
 
     def off(index: int) -> float:
-        centre = found[index].centre or (0.0, 0.0)
+        centre = found[index].fit.centre or (0.0, 0.0)
         return float(np.hypot(*np.subtract(centre, bed.caps[index].centre))) / bed.caps[index].diameter
 
     worst = sorted(_inside(bed), key=off, reverse=True)[:FAILURES]
@@ -102,7 +104,7 @@ def _failures(bed: Bed, found: list[Reconstruction]) -> Picture:
         panel = _panel(bed.image, centre)
         for arc in found[index].arcs:
             _line(panel, arc.points, centre, KINDS[arc.kind], thick=2)
-        _shape(panel, found[index].whole, centre, FIT)
+        _shape(panel, found[index].fit.whole, centre, FIT)
         _shape(panel, bed.caps[index].ellipse, centre, TRUTH)
         panels.append(panel)
     half = FAILURES // 2

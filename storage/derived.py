@@ -2,38 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any
 
 from msgspec import Struct
 from sqlalchemy import Connection, and_, select, union, update
 
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.db.counters import recount
 from fairyring.storage.db.rows import values_of_fit
 from fairyring.storage.db.schema import annotation, image, prediction
-from fairyring.storage.records import Shape
 
-
-class Fit(Struct, frozen=True, kw_only=True):
-    """What was worked out for one cap: a whole outline and its centre, or why there is none."""
-
-    whole: Shape | None = None
-    centre: tuple[float, float] | None = None
-    refusal: str | None = None
-
-
-class AnnotationFit(Struct, frozen=True, kw_only=True):
-    """For one revision of an annotation."""
-
-    uid: str
-    revision: int
-    fit: Fit
-
-
-class PredictionFit(Struct, frozen=True, kw_only=True):
-    """For a prediction."""
-
-    id: int
-    fit: Fit
+NONE: Mapping[Any, Fit] = MappingProxyType({})
 
 
 class Underived(Struct, frozen=True, kw_only=True):
@@ -78,32 +59,34 @@ def store_derived(
     connection: Connection,
     image_id: int,
     *,
-    annotations: Sequence[AnnotationFit] = (),
-    predictions: Sequence[PredictionFit] = (),
+    annotations: Mapping[tuple[str, int], Fit] = NONE,
+    predictions: Mapping[int, Fit] = NONE,
 ) -> int:
     """Stores fits of one image where they are still lacking, and returns how many were.
 
-    A fit of an annotation that has been edited since is dropped; the prediction's outline and score stay.
+    ``annotations`` are named by uid and revision: the fit of one that has been edited since is dropped.
+    ``predictions`` are named by id; their outlines and scores stay.
     """
     stored = 0
-    for item in annotations:
+    for (uid, revision), fit in annotations.items():
         statement = update(annotation).where(
-            annotation.c.uid == item.uid,
+            annotation.c.uid == uid,
             annotation.c.image == image_id,
-            annotation.c.revision == item.revision,
+            annotation.c.revision == revision,
             _ANNOTATION_LACKS,
         )
-        stored += connection.execute(statement.values(**_values(item.fit))).rowcount
-    for item in predictions:
+        stored += connection.execute(statement.values(**_values(fit))).rowcount
+    for number, fit in predictions.items():
         statement = update(prediction).where(
-            prediction.c.id == item.id, prediction.c.image == image_id, _PREDICTION_LACKS
+            prediction.c.id == number, prediction.c.image == image_id, _PREDICTION_LACKS
         )
-        stored += connection.execute(statement.values(**_values(item.fit))).rowcount
+        stored += connection.execute(statement.values(**_values(fit))).rowcount
     if stored:
         recount(connection, [image_id])
     return stored
 
 
 def _values(fit: Fit) -> dict[str, object]:
-    missing = "no outline was found" if fit.whole is None else None
-    return values_of_fit(fit.whole, fit.centre, fit.refusal or missing)
+    if fit.whole is None and fit.refusal is None:
+        fit = Fit(refusal="no outline was found")
+    return values_of_fit(fit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any, Literal
 
 from msgspec import Struct
@@ -142,6 +143,11 @@ def set_status(connection: Connection, image_id: int, status: Status, *, user: s
             )
         )
     return get_image(connection, image_id)
+
+
+def keep_figures(connection: Connection, image_id: int, figures: Mapping[str, float]) -> None:
+    """Stores what was measured on the masks of an image."""
+    connection.execute(update(image).where(image.c.id == image_id).values(figures=dict(figures)))
 
 
 def sort_name(file_name: str) -> str:

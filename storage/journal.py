@@ -9,6 +9,7 @@ from msgspec import Struct, json
 from sqlalchemy import Connection, insert, select, update
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import check_cap, check_name
 from fairyring.storage.db import schema
 from fairyring.storage.db.clock import now
@@ -25,20 +26,17 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.errors import StoreError
 from fairyring.storage.project import Project
-from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, Shape
+from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused
 
 DEFAULT_CATEGORY = "mushroom"
 """May be used before anybody has made it; other categories come from imports."""
 
 
 class Derived(Struct, frozen=True, kw_only=True):
-    """An edit with what was worked out from its cap; all None where that is left for later."""
+    """An edit with what was worked out from its cap; an empty fit where that is left for later."""
 
     edit: Edit
-    whole: Shape | None = None
-    centre: tuple[float, float] | None = None
-    refusal: str | None = None
-    """Why no whole outline was found; None where there is one or none was sought."""
+    fit: Fit = Fit()
 
 
 class Entry(Struct, frozen=True, kw_only=True):
@@ -220,7 +218,7 @@ def _store(
     values = {"revision": revision, "deleted": cap is None, "edited_by": user, "edited_at": time}
     if cap is not None:
         values |= values_of_cap(cap, categories=categories)
-        values |= values_of_fit(derived.whole, derived.centre, derived.refusal)
+        values |= values_of_fit(derived.fit)
     table = schema.annotation
     if current is None:
         connection.execute(insert(table).values(uid=edit.annotation, image=edit.image, extra={}, **values))

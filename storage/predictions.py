@@ -9,6 +9,7 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, insert, select, update
 
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import are_finite, check_cap, check_name
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.counters import recount
@@ -22,7 +23,7 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import image, prediction, run
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Cap, Outline, Run, Shape
+from fairyring.storage.records import Cap, Outline, Run
 
 
 class NewPrediction(Struct, frozen=True, kw_only=True):
@@ -32,10 +33,7 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
     score: float
     """Score, 0 to 1."""
     category: str = "mushroom"
-    whole: Shape | None = None
-    centre: tuple[float, float] | None = None
-    refusal: str | None = None
-    """Why no whole outline was found; None where there is one or none was sought."""
+    fit: Fit = Fit()
     uid: str | None = None
     """Identifies it within its run and image: the same one again adds nothing."""
     extra: dict[str, Any] = field(default_factory=dict)
@@ -152,5 +150,5 @@ def _values(
         "visible": cap.visible,
         "score": float(new.score),
         "extra": new.extra,
-        **values_of_fit(new.whole, new.centre, new.refusal),
+        **values_of_fit(new.fit),
     }

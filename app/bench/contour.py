@@ -19,7 +19,8 @@ from fairyring.app.bench.timing import Row
 from fairyring.app.commands.files import read_json
 from fairyring.model.contour.coco import silhouettes_of
 from fairyring.model.contour.methods import DEFAULT_METHOD, METHODS
-from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.reconstruct import reconstruct_silhouettes
+from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.scene.clusters import Recipe, make_cluster
 
@@ -215,8 +216,8 @@ def _over(cdr: np.ndarray, best: np.ndarray) -> Row:
 def _errors(image: Truth, found: Sequence[Reconstruction]) -> tuple[np.ndarray, np.ndarray]:
     """Of the caps that count: as the first two fields of `Errors`."""
     nowhere = (np.nan, np.nan)
-    off = np.array([each.centre or nowhere for each in found])[image.counts] - image.centres[image.counts]
-    sd = np.array([each.centre_sd or nowhere for each in found])[image.counts]
+    off = np.array([each.fit.centre or nowhere for each in found])[image.counts] - image.centres[image.counts]
+    sd = np.array([each.fit.centre_sd or nowhere for each in found])[image.counts]
     return 100 * np.abs(off / (image.width, image.height)).sum(axis=1), np.clip(off / sd, -5, 5)
 
 

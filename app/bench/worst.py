@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from fairyring.app.commands.files import FileError, read_json
 from fairyring.model.contour.coco import silhouettes_of
-from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
-from fairyring.model.contour.result import ArcKind
+from fairyring.model.contour.reconstruct import reconstruct_silhouettes
+from fairyring.model.contour.result import ArcKind, Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.evaluate.centres import centre_error
 from fairyring.model.geometry.shapes import Circle, Ellipse, Points, points_of_part, polygon_of_shape
@@ -82,9 +82,9 @@ def _misses(document: dict[str, Any], image: dict[str, Any], labels: Path, metho
     photo = labels.parent / "images" / image["file_name"]
     misses = []
     for annotation, cap, each in zip(annotations, caps, found, strict=True):
-        if annotation.get("ignore") or annotation.get("doubt") or each.centre is None:
+        if annotation.get("ignore") or annotation.get("doubt") or each.fit.centre is None:
             continue
-        off = centre_error(each.centre, annotation["center"], width=width, height=height, diameter=None)
+        off = centre_error(each.fit.centre, annotation["center"], width=width, height=height, diameter=None)
         misses.append(
             Miss(
                 photo=photo if photo.exists() else labels.parent / image["file_name"],
@@ -107,12 +107,12 @@ def _panel(miss: Miss, title: str) -> Picture:
     picture = frame.cut(_tinted(photo, miss.cap))
     for arc in miss.found.arcs:
         frame.line(picture, arc.points, KINDS[arc.kind], thick=2)
-    for shape, colour in ((truth, TRUTH), (miss.found.whole, FIT)):
+    for shape, colour in ((truth, TRUTH), (miss.found.fit.whole, FIT)):
         if shape is not None:
             frame.line(picture, points_of_part(polygon_of_shape(shape)), colour, closed=True)
             frame.cross(picture, (shape.cx, shape.cy), colour)
-    if miss.found.centre is not None and miss.found.centre_sd is not None:
-        (cx, cy), (sx, sy) = miss.found.centre, miss.found.centre_sd
+    if miss.found.fit.centre is not None and miss.found.fit.centre_sd is not None:
+        (cx, cy), (sx, sy) = miss.found.fit.centre, miss.found.fit.centre_sd
         doubt = Ellipse(cx=cx, cy=cy, a=max(2 * sx, 0.2), b=max(2 * sy, 0.2), theta_deg=0)
         frame.line(picture, points_of_part(polygon_of_shape(doubt)), FIT, closed=True)
     return np.vstack([picture, _words(miss, title)])
@@ -169,7 +169,7 @@ class _Frame:
 def _words(miss: Miss, title: str) -> Picture:
     visible = miss.annotation.get("visible_fraction")
     known = "" if visible is None else f", {100 * visible:.0f} % in sight"
-    sd = miss.found.centre_sd
+    sd = miss.found.fit.centre_sd
     doubt = "" if sd is None else f", sd {sd[0]:.1f} {sd[1]:.1f} px"
     head = f"{title}: CDR {miss.cdr:.2f} %, {miss.px:.1f} px{known}{doubt}"
     # OpenCV's letters are ASCII alone.

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 
 import anyio.to_thread
 
-from fairyring.app.caps.image_caps import Scene, covered_by
+from fairyring.app.caps.image_caps import ImageCaps, covered_by
 from fairyring.app.caps.nearby import keys_near
 from fairyring.model.evaluate import centres
 from fairyring.model.evaluate.pages import CapRecord
@@ -37,16 +37,16 @@ def compare(
     return centres.compare(truths, guesses, width=image.width, height=image.height)
 
 
-def compare_cap(scene: Scene, uid: str) -> centres.Pair | None:
+def compare_cap(caps: ImageCaps, uid: str) -> centres.Pair | None:
     """The prediction that belongs to one cap, looked for among what lies near it; None where there is none.
 
     The pair's indices mean nothing to the caller.
     """
-    covered = {key: covered_by(a) for key, a in scene.annotations.items() if not a.deleted}
-    guesses = {p.id: p for p in scene.predictions}
-    near = keys_near(covered[uid], covered, boxes=scene.boxes)
-    around = keys_near(covered[uid], {key: p.visible for key, p in guesses.items()}, boxes=scene.boxes)
-    found = compare(scene.image, [scene.annotations[key] for key in near], [guesses[key] for key in around])
+    covered = {key: covered_by(a) for key, a in caps.annotations.items() if not a.deleted}
+    guesses = {p.id: p for p in caps.predictions}
+    near = keys_near(covered[uid], covered, boxes=caps.boxes)
+    around = keys_near(covered[uid], {key: p.visible for key, p in guesses.items()}, boxes=caps.boxes)
+    found = compare(caps.image, [caps.annotations[key] for key in near], [guesses[key] for key in around])
     return next((pair for pair in found.pairs if near[pair.truth] == uid), None)
 
 

@@ -3,55 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import numpy as np
-
-from fairyring.app.caps.nearby import NOWHERE, Boxes, around
+from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.nearby import Boxes
 from fairyring.model.geometry.shapes import polygon_of_shape
 from fairyring.storage.records import Annotation, Image, ImageContents, Outline, Prediction
 
 
 @dataclass(frozen=True)
-class Scene:
+class ImageCaps:
     """What a cap is worked out and judged among."""
 
     image: Image
     annotations: Mapping[str, Annotation]
     """By uid; deleted ones may be among them."""
     predictions: Sequence[Prediction]
+    fitting: Fitting
+    """The same for one image after another, as its caps change."""
     boxes: Boxes = field(default_factory=Boxes)
 
     @cached_property
     def visible(self) -> dict[str, Outline]:
-        """What is visible of every cap: the live annotations, and the predictions nobody has touched."""
+        """What is visible of every cap: the live annotations, and the predictions nobody has touched.
+
+        So a prediction that is accepted as it is changes nothing that is visible.
+        """
         touched = {annotation.cap.prediction for annotation in self.annotations.values()}
         live = {uid: a.cap.visible for uid, a in self.annotations.items() if not a.deleted}
         return live | {key_of(p.id): p.visible for p in self.predictions if p.id not in touched}
 
-    @cached_property
-    def _places(self) -> np.ndarray:
-        """(n, 4), the boxes of ``visible``."""
-        boxes = [self.boxes.of(outline) or NOWHERE for outline in self.visible.values()]
-        return np.array(boxes).reshape(-1, 4)
-
-    def near(self, uid: str, outline: Outline, *, prediction: int | None, reach: float) -> list[Outline]:
-        """What is visible around a cap with this outline, without itself and the prediction it started from.
-
-        Of others whose box touches its own, widened on all sides by ``reach`` times the longer side.
-        """
-        left, top, right, bottom = around(outline, reach=reach)
-        (x0, y0, x1, y1), keys = self._places.T, list(self.visible)
-        touching = np.flatnonzero((x0 <= right) & (x1 >= left) & (y0 <= bottom) & (y1 >= top))
+    def visible_beside(self, uid: str, *, prediction: int | None) -> list[Outline]:
+        """What is visible of all caps but this one and the prediction it started from."""
         own = (uid, key_of(prediction))
-        return [self.visible[keys[place]] for place in touching if keys[place] not in own]
+        return [outline for key, outline in self.visible.items() if key not in own]
+
+    def with_annotations(self, annotations: Mapping[str, Annotation]) -> ImageCaps:
+        """The same image with other annotations."""
+        return replace(self, annotations=annotations)
 
 
-def scene_of(contents: ImageContents) -> Scene:
-    """The scene as the store knows it."""
+def caps_of(contents: ImageContents) -> ImageCaps:
+    """The caps as the store knows them."""
     annotations = {annotation.uid: annotation for annotation in contents.annotations}
-    return Scene(contents.image, annotations, contents.predictions)
+    fitting = Fitting(contents.image, known_figures(contents.image))
+    return ImageCaps(contents.image, annotations, contents.predictions, fitting)
 
 
 def key_of(prediction: int | None) -> str:

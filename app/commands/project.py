@@ -52,7 +52,7 @@ def import_(
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
-    from fairyring.app.caps.whole_outlines import fill_in
+    from fairyring.app.caps.filling_in import fill_in
     from fairyring.storage.importing.paths import import_paths
     from fairyring.storage.project import open_project
 
@@ -107,7 +107,7 @@ def export(
 
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
-    from fairyring.app.caps.whole_outlines import fill_in
+    from fairyring.app.caps.filling_in import fill_in
     from fairyring.storage.exporting import export_coco
     from fairyring.storage.project import open_project
 

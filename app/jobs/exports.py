@@ -9,7 +9,7 @@ from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
 
 from fairyring.app.addresses import download_address
-from fairyring.app.caps.whole_outlines import fill_in
+from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.jobs.runner import Result
 from fairyring.model.progress import Progress
 from fairyring.model.whole_files import written_whole

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +14,17 @@ import numpy as np
 import torch
 from sqlalchemy import Connection
 
-from fairyring.app.caps.whole_outlines import Whole, wholes_of
+from fairyring.app.caps.fitting import Fitting
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.outline_checks import check_outline
-from fairyring.model.geometry.shapes import GeometryError, Outline
+from fairyring.model.geometry.shapes import Fit, GeometryError, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.progress import Progress, silent
-from fairyring.storage.images import get_image
+from fairyring.storage.images import get_image, keep_figures
 from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
@@ -117,11 +117,11 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new = _predictions_of(network, project, image)
+            new, figures = _predictions_of(network, project, image)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
-        project.write(lambda connection, image=image, new=new: run.store(connection, image.id, new))
+        project.write(partial(run.store, image_id=image.id, new=new, figures=figures))
         outcome.images += 1
         outcome.caps += len(new)
         predicted(image.id)
@@ -142,7 +142,14 @@ class _Run:
         self._network, self._redo = network, redo
         self._id: int | None = None
 
-    def store(self, connection: Connection, image_id: int, new: Sequence[NewPrediction]) -> None:
+    def store(
+        self,
+        connection: Connection,
+        *,
+        image_id: int,
+        new: Sequence[NewPrediction],
+        figures: Mapping[str, float],
+    ) -> None:
         """Stores an image's predictions; to be called within ``Project.write``."""
         if self._id is None:
             of = self._network
@@ -151,20 +158,27 @@ class _Run:
             )
             self._id = run.id
         add_predictions(connection, run_id=self._id, image_id=image_id, predictions=new)
+        keep_figures(connection, image_id, figures)
 
 
-def _predictions_of(network: Network, project: Project, image: Image) -> list[NewPrediction]:
+def _predictions_of(
+    network: Network, project: Project, image: Image
+) -> tuple[list[NewPrediction], dict[str, float]]:
+    """What the network sees in a photo, and the figures by which its caps were fitted."""
     pixels = photo.read(project.originals.path_of(image))
     found = [
         (detection.score, outline)
         for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
         if (outline := _usable(detection.outline, image)) is not None
     ]
-    wholes = wholes_of([outline for _, outline in found], image)
-    return [
-        _prediction(nth, score, outline, whole)
+    outlines = [outline for _, outline in found]
+    fitting = Fitting(image, None)
+    wholes = fitting.reconstructions(outlines, visible=outlines)
+    new = [
+        _prediction(nth, score, outline, whole.fit)
         for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
     ]
+    return new, fitting.figures
 
 
 def _usable(outline: Outline, image: Image) -> Outline | None:
@@ -174,16 +188,14 @@ def _usable(outline: Outline, image: Image) -> Outline | None:
         return None
 
 
-def _prediction(nth: int, score: float, outline: Outline, whole: Whole) -> NewPrediction:
-    spread = whole.centre_sd
+def _prediction(nth: int, score: float, outline: Outline, fit: Fit) -> NewPrediction:
+    spread = fit.centre_sd
     return NewPrediction(
         # By its place, so that the same photo seen twice by one run is stored once.
         uid=f"network-{nth}",
         visible=outline,
         score=min(max(score, 0.0), 1.0),
-        whole=whole.shape,
-        centre=whole.centre,
-        refusal=whole.note if whole.shape is None else None,
+        fit=fit,
         extra={"center_sd": [round(sd, 4) for sd in spread]} if spread else {},
     )
 

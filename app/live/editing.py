@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import anyio.to_thread
 
-from fairyring.app.caps.image_caps import Scene
+from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.caps.whole_outlines import derive_edits, refit
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
@@ -23,7 +23,7 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
     """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
     session.storing = {edit.annotation for edit in edits}
     try:
-        outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.scene, session.user)
+        outcomes = await anyio.to_thread.run_sync(_store, workspace, edits, session.caps, session.user)
         session.send(Outcomes(outcomes=outcomes))
         accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
         session.take_in(accepted)
@@ -40,7 +40,7 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
     session.refresh("cap", "status")
 
 
-def _store(workspace: Workspace, edits: Sequence[Edit], known: Scene | None, user: str) -> list[Outcome]:
+def _store(workspace: Workspace, edits: Sequence[Edit], known: ImageCaps | None, user: str) -> list[Outcome]:
     return commit(workspace.project, derive_edits(workspace.project, edits, known=known), user=user)
 
 
@@ -67,9 +67,9 @@ class Refits:
         try:
             while (request := self._latest) is not None:
                 self._latest = None
-                scene = self._session.scene
-                if scene is not None and scene.image.id == request.image:
-                    self._session.send(await anyio.to_thread.run_sync(refit, scene, request))
+                caps = self._session.caps
+                if caps is not None and caps.image.id == request.image:
+                    self._session.send(await anyio.to_thread.run_sync(refit, caps, request))
         except Exception:
             log.exception("A refit failed.")
         finally:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
-import msgspec
 from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
@@ -108,8 +107,8 @@ async def set_status(workspace: Workspace, session: Session, image_id: int, stat
         lambda connection: images.set_status(connection, image_id, status, user=session.user)
     )
     for tab in workspace.tabs:
-        if tab.contents is not None and tab.shows(image_id):
-            tab.contents = msgspec.structs.replace(tab.contents, image=image)
+        if tab.caps is not None and tab.shows(image_id):
+            tab.caps = replace(tab.caps, image=image)
         tab.refresh("status", "images")
 
 

@@ -13,15 +13,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
-import msgspec
 import viser
 
-from fairyring.app.caps.image_caps import Scene
-from fairyring.app.caps.nearby import Boxes
+from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.editor_commands import LAYERS
 from fairyring.app.protocol import FromServer, Layers, Notice
 from fairyring.storage.images import ImageFilter
-from fairyring.storage.records import Annotation, Image, ImageContents
+from fairyring.storage.records import Annotation, Image, ImageContents, Run
 
 log = logging.getLogger(__name__)
 
@@ -54,11 +52,10 @@ class Session:
     """Messages for the editor's socket; None while the editor is not connected."""
     hang_up: Callable[[], object] = lambda: None
     """Closes the editor's socket."""
-    contents: ImageContents | None = None
-    """The image on screen as it was when ``show`` opened it; later edits are in ``annotations`` alone."""
-    annotations: dict[str, Annotation] = field(default_factory=dict)
-    boxes: Boxes = field(default_factory=Boxes)
-    _scene: Scene | None = field(default=None, init=False, repr=False)
+    caps: ImageCaps | None = None
+    """The image on screen with its caps as they are now."""
+    run: Run | None = None
+    """The run whose predictions are on screen."""
     filter: ImageFilter = field(default_factory=ImageFilter)
     """The filter and order of the image list, which decide the next image."""
     position: int = 0
@@ -75,17 +72,7 @@ class Session:
     @property
     def image(self) -> Image | None:
         """The image on screen."""
-        return self.contents.image if self.contents else None
-
-    @property
-    def scene(self) -> Scene | None:
-        """The image on screen with its caps as they are now; the same until one of them changes."""
-        if self.contents is None:
-            return None
-        if self._scene is None or self._scene.image is not self.contents.image:
-            annotations, predictions = dict(self.annotations), self.contents.predictions
-            self._scene = Scene(self.contents.image, annotations, predictions, self.boxes)
-        return self._scene
+        return self.caps.image if self.caps else None
 
     def shows(self, image_id: int) -> bool:
         """Whether this image is on screen."""
@@ -111,24 +98,19 @@ class Session:
 
     def show(self, contents: ImageContents) -> None:
         """Notes that another image is on screen, with these contents."""
-        self.contents = contents
-        self.annotations = {annotation.uid: annotation for annotation in contents.annotations}
-        self.boxes, self._scene = Boxes(), None
+        self.caps, self.run = caps_of(contents), contents.run
 
     def take_in(self, annotations: list[Annotation]) -> None:
         """Notes what has become of annotations of the image on screen."""
-        for annotation in annotations:
-            if self.shows(annotation.image):
-                self.annotations[annotation.uid] = annotation
-                self._scene = None
+        here = {annotation.uid: annotation for annotation in annotations if self.shows(annotation.image)}
+        if self.caps is not None and here:
+            self.caps = self.caps.with_annotations({**self.caps.annotations, **here})
 
     def take_predictions(self, contents: ImageContents) -> None:
         """Notes what a later run said of the image on screen."""
-        if self.contents is not None and self.shows(contents.image.id):
-            self.contents = msgspec.structs.replace(
-                self.contents, predictions=contents.predictions, run=contents.run
-            )
-            self._scene = None
+        if self.caps is not None and self.shows(contents.image.id):
+            self.caps = caps_of(contents).with_annotations(self.caps.annotations)
+            self.run = contents.run
 
 
 class Tabs:

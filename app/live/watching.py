@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from dataclasses import replace
 
 import anyio.to_thread
-import msgspec
 from sqlalchemy import Connection
 
 from fairyring.app.live.opening import CHANGES_IMAGE, reopen
@@ -58,27 +58,29 @@ async def catch_up(workspace: Workspace) -> None:
 def _deleted(connection: Connection, tab: Session, contents: ImageContents) -> list[Annotation]:
     """What the tab shows and the store has no longer, as it was deleted."""
     live = {annotation.uid for annotation in contents.annotations}
-    missing = [a.uid for a in list(tab.annotations.values()) if not a.deleted and a.uid not in live]
+    known = tab.caps.annotations.values() if tab.caps else ()
+    missing = [each.uid for each in known if not each.deleted and each.uid not in live]
     found = [load_annotation(connection, uid) for uid in missing]
     return [annotation for annotation in found if annotation is not None and annotation.deleted]
 
 
 def _bring_up_to(tab: Session, contents: ImageContents, gone: list[Annotation]) -> None:
     """Tells one tab what is new to it; on caps it is storing an edit of, the journal's answer tells it."""
-    if tab.contents is None or not tab.shows(contents.image.id):
+    if tab.caps is None or not tab.shows(contents.image.id):
         return
+    known = tab.caps.annotations
     changed = [
         annotation
         for annotation in [*contents.annotations, *gone]
-        if annotation.uid not in tab.storing and _is_news(annotation, tab.annotations.get(annotation.uid))
+        if annotation.uid not in tab.storing and _is_news(annotation, known.get(annotation.uid))
     ]
     if changed:
         tab.take_in(changed)
         tab.send(Changed(image=contents.image.id, annotations=changed, user=SOMEBODY))
-    if contents.predictions != tab.contents.predictions or contents.run != tab.contents.run:
+    if contents.predictions != tab.caps.predictions or contents.run != tab.run:
         tab.take_predictions(contents)
         tab.send(Predicted(image=contents.image.id, predictions=contents.predictions))
-    tab.contents = msgspec.structs.replace(tab.contents, image=contents.image)
+    tab.caps = replace(tab.caps, image=contents.image)
 
 
 def _is_news(annotation: Annotation, known: Annotation | None) -> bool:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import compare_cap
-from fairyring.app.caps.image_caps import Scene
-from fairyring.app.caps.whole_outlines import Whole, whole_of
+from fairyring.app.caps.image_caps import ImageCaps
+from fairyring.app.caps.whole_outlines import note_of, reconstruction_of
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.buttons import command_button
@@ -32,7 +32,8 @@ class Background:
     entries: Sequence[Entry]
     prediction: Prediction | None
     run: Run | None
-    whole: Whole
+    note: str
+    """How the whole outline came about."""
     pair: Pair | None
 
 
@@ -47,30 +48,30 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 async def _inspect(workspace: Workspace, session: Session) -> Markup:
-    scene, selection = session.scene, session.selection
-    if scene is None or session.contents is None:
+    caps, selection = session.caps, session.selection
+    if caps is None:
         return EMPTY
-    annotation = scene.annotations.get(selection.annotation or "")
+    annotation = caps.annotations.get(selection.annotation or "")
     if annotation is not None and not annotation.deleted:
-        return annotation_facts(annotation, await _background(workspace, scene, annotation))
-    for prediction in scene.predictions:
+        return annotation_facts(annotation, await _background(workspace, caps, annotation))
+    for prediction in caps.predictions:
         if prediction.id == selection.prediction:
-            return prediction_facts(prediction, session.contents.run)
-    return summary(session)
+            return prediction_facts(prediction, session.run)
+    return summary(caps)
 
 
-async def _background(workspace: Workspace, scene: Scene, annotation: Annotation) -> Background:
+async def _background(workspace: Workspace, caps: ImageCaps, annotation: Annotation) -> Background:
     started_from = annotation.cap.prediction
 
     def gather(connection: Connection) -> Background:
         # A cap is compared with all that was said, also with what is not offered where the cap lies.
-        said = replace(scene, predictions=load_predictions(connection, scene.image.id))
+        said = replace(caps, predictions=load_predictions(connection, caps.image.id))
         prediction = load_prediction(connection, started_from) if started_from is not None else None
         return Background(
             entries=history(connection, annotation.uid),
             prediction=prediction,
             run=load_run(connection, prediction.run) if prediction else None,
-            whole=whole_of(annotation.uid, annotation.cap, scene),
+            note=note_of(reconstruction_of(annotation.uid, annotation.cap, caps)),
             pair=compare_cap(said, annotation.uid),
         )
 
@@ -89,7 +90,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
     facts: Facts = [
         ("Centre", _point(annotation.centre)),
         ("Whole", _shape(annotation.whole)),
-        ("Fit", background.whole.note),
+        ("Fit", background.note),
         ("Mark", _mark(cap.mark)),
         *_error_facts(background.pair),
         ("Overlap", order),
@@ -127,13 +128,12 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
     )
 
 
-def summary(session: Session) -> Markup:
+def summary(caps: ImageCaps) -> Markup:
     """Counts of the image on screen, shown while nothing is selected."""
-    assert session.contents is not None
-    live = [a for a in session.annotations.values() if not a.deleted]
+    live = [a for a in caps.annotations.values() if not a.deleted]
     real = [a for a in live if not a.cap.ignored]
-    touched = {a.cap.prediction for a in session.annotations.values()}
-    waiting = sum(p.id not in touched for p in session.contents.predictions)
+    touched = {a.cap.prediction for a in caps.annotations.values()}
+    waiting = sum(p.id not in touched for p in caps.predictions)
     facts: Facts = [
         ("Caps", f"{len(real)}, {sum(a.cap.mark is not None for a in real)} marked"),
         ("Ignored", len(live) - len(real)),

@@ -47,7 +47,7 @@ def _image_line(session: Session) -> list[Markup]:
 
 
 def _person_line(session: Session) -> list[Markup]:
-    run = session.contents.run if session.contents else None
+    run = session.run
     waiting = f"{session.waiting} on their way" if session.waiting else None
     return [
         run_badge(run) if run else element("span", "no predictions"),

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.result import Arc, ArcKind
+from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.contour.together import Together
 
 HOLLOW = 3.0
@@ -19,9 +22,9 @@ _KINDS: tuple[ArcKind, ...] = ("visible", "hidden", "border", "concave")
 def kinds_of(together: Together) -> NDArray[np.int_]:
     """(n, K), what each rim point is, as an index into visible, hidden, border, concave."""
     contact = together.contact
-    hollow = together.fit.residual < -max(LEAST_HOLLOW, HOLLOW * together.evidence.noise)
+    hollow = together.look.estimate.residual < -max(LEAST_HOLLOW, HOLLOW * together.figures.noise)
     kinds = np.zeros(contact.neighbour.shape, np.int64)
-    kinds[(contact.neighbour >= 0) & (together.evidence.seen < 0.5)] = 1
+    kinds[(contact.neighbour >= 0) & (together.look.own < 0.5)] = 1
     kinds[contact.border] = 2
     kinds[(kinds == 0) & hollow] = 3
     return kinds
@@ -34,12 +37,14 @@ def arcs_of(together: Together, cap: int, kinds: NDArray[np.int_]) -> tuple[Arc,
     points = together.rims.points[cap]
     starts = [at for at in range(len(key)) if key[at] != key[at - 1]]
     if not starts:
-        return (_arc(key[0], points),)
+        return (_arc(key[0], points, together.in_sight),)
     twice = np.concatenate([points, points])
     ends = [*starts[1:], starts[0] + len(key)]
-    return tuple(_arc(key[start], twice[start:end]) for start, end in zip(starts, ends, strict=True))
+    return tuple(
+        _arc(key[start], twice[start:end], together.in_sight) for start, end in zip(starts, ends, strict=True)
+    )
 
 
-def _arc(key: int, points: NDArray[np.float64]) -> Arc:
+def _arc(key: int, points: NDArray[np.float64], in_sight: Sequence[Silhouette]) -> Arc:
     neighbour, kind = divmod(key, len(_KINDS))
-    return Arc(kind=_KINDS[kind], points=points, neighbour=neighbour - 1 if neighbour else None)
+    return Arc(kind=_KINDS[kind], points=points, neighbour=in_sight[neighbour - 1] if neighbour else None)

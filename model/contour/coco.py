@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from fairyring.model.contour.methods import DEFAULT_METHOD
 from fairyring.model.contour.priors import DEFAULT, Priors
-from fairyring.model.contour.reconstruct import Reconstruction, reconstruct_silhouettes
+from fairyring.model.contour.reconstruct import reconstruct_silhouettes
+from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import NOTHING, Silhouette, silhouette_of_outline
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.outline_checks import check_outline
@@ -26,7 +28,7 @@ class ContourError(FairyringError):
 def contour_document(
     document: Any,
     *,
-    method: str | None = None,
+    method: str = DEFAULT_METHOD,
     priors: Priors = DEFAULT,
     progress: Progress = silent,
 ) -> dict[str, Any]:
@@ -98,15 +100,16 @@ def _seen(annotation: dict[str, Any], *, width: int, height: int) -> tuple[Silho
 
 def _with(annotation: dict[str, Any], found: Reconstruction, refusal: str | None) -> dict[str, Any]:
     kept = {key: value for key, value in annotation.items() if key not in OURS}
-    if found.whole is None or found.centre is None:
-        return {**kept, "center": None, "refusal": refusal or found.refusal}
-    whole = found.whole
+    fit = found.fit
+    if fit.whole is None or fit.centre is None:
+        return {**kept, "center": None, "refusal": refusal or fit.refusal}
+    whole = fit.whole
     if isinstance(whole, Circle):
         outline = {"circle": _rounded(whole.cx, whole.cy, whole.r)}
     else:
         outline = {"ellipse": _rounded(whole.cx, whole.cy, whole.a, whole.b, whole.theta_deg)}
-    sd = None if found.centre_sd is None else _rounded(*found.centre_sd)
-    return {**kept, "center": _rounded(*found.centre), **outline, "center_sd": sd, "shape": found.shape}
+    sd = None if fit.centre_sd is None else _rounded(*fit.centre_sd)
+    return {**kept, "center": _rounded(*fit.centre), **outline, "center_sd": sd, "shape": found.shape}
 
 
 def _rounded(*figures: float) -> list[float]:

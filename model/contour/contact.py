@@ -14,46 +14,56 @@ from fairyring.model.contour.silhouette import Silhouette
 REACH = (1.5, 3.0, 4.5)
 """How far outside a rim to look for a neighbour, the nearest first, pixels: outlines of masks leave gaps."""
 
+NOBODY, ELSEWHERE = -1, -2
+"""No neighbour; one that is not among the caps at hand."""
+
 
 @dataclass(frozen=True, slots=True)
 class Contact:
     """What lies outside each of n × K points."""
 
     neighbour: NDArray[np.int_]
-    """(n, K), index of the nearest other cap, −1 where there is none."""
+    """(n, K), place of the nearest other cap among those at hand; else `NOBODY` or `ELSEWHERE`."""
     border: NDArray[np.bool_]
     """(n, K), whether the image ends here."""
 
     @property
     def free(self) -> NDArray[np.bool_]:
         """(n, K), where there is neither."""
-        return (self.neighbour < 0) & ~self.border
+        return (self.neighbour == NOBODY) & ~self.border
 
 
-def contact_of(caps: Sequence[Silhouette], rims: Rims, *, width: int, height: int) -> Contact:
-    """Looks outward from each point of the rims of these caps, in an image of this size."""
-    labels, left, top = _labels(caps)
+def contact_of(rims: Rims, caps: Sequence[Silhouette], *, width: int, height: int) -> Contact:
+    """Looks outward from each point of n rims in an image of this size.
+
+    ``caps`` are those in sight from there, n or more; the first n are the ones whose rims these are.
+    """
     outside = rims.points + np.multiply.outer(REACH, rims.outward)
     x, y = outside[0, ..., 0], outside[0, ..., 1]
     border = (x < 0) | (y < 0) | (x >= width) | (y >= height)
-    at = np.floor(outside).astype(np.int64) - (left, top)
-    x, y = at[..., 0], at[..., 1]
-    inside = (x >= 0) & (x < labels.shape[1]) & (y >= 0) & (y < labels.shape[0])
-    there = np.where(inside, labels[np.where(inside, y, 0), np.where(inside, x, 0)] - 1, -1)
-    there[there == np.arange(len(caps))[:, None]] = -1
+    at = np.floor(outside).astype(np.int64)
+    labels, left, top = _labels(caps, at)
+    x, y = at[..., 0] - left, at[..., 1] - top
+    there = labels[y, x] - 1  # 0 is nobody
+    there[there == np.arange(len(rims.points))[:, None]] = NOBODY
     near, far, farthest = there
     neighbour = np.where(near >= 0, near, np.where(far >= 0, far, farthest))
-    return Contact(np.where(border, -1, neighbour), border)
+    return Contact(np.where(border, NOBODY, neighbour), border)
 
 
-def _labels(caps: Sequence[Silhouette]) -> tuple[NDArray[np.int32], int, int]:
-    """A map of who is seen where (index + 1, 0 nobody), and the column and row it starts at."""
-    left, top = min(cap.left for cap in caps), min(cap.top for cap in caps)
-    right = max(cap.left + cap.mask.shape[1] for cap in caps)
-    bottom = max(cap.top + cap.mask.shape[0] for cap in caps)
+def _labels(caps: Sequence[Silhouette], at: NDArray[np.int64]) -> tuple[NDArray[np.int32], int, int]:
+    """A map of who is seen where (place + 1, 0 nobody) around the pixels ``at`` (…, 2), with its corner.
+
+    Where two overlap the smaller one is seen, whatever their order.
+    """
+    (left, top), (right, bottom) = at.min(axis=(0, 1, 2)), at.max(axis=(0, 1, 2)) + 1
     labels = np.zeros((bottom - top, right - left), np.int32)
-    for index, cap in enumerate(caps):
-        rows, columns = cap.mask.shape
-        y, x = cap.top - top, cap.left - left
-        np.copyto(labels[y : y + rows, x : x + columns], index + 1, where=cap.mask.view(np.bool_))
-    return labels, left, top
+    smaller_later = sorted(range(len(caps)), key=lambda place: (-caps[place].pixels, caps[place].content))
+    for place in smaller_later:
+        x0, y0, x1, y1 = caps[place].box
+        x, y = max(x0, left), max(y0, top)
+        columns, rows = min(x1, right) - x, min(y1, bottom) - y
+        if columns > 0 and rows > 0:
+            seen = caps[place].mask[y - y0 : y - y0 + rows, x - x0 : x - x0 + columns].view(np.bool_)
+            np.copyto(labels[y - top : y - top + rows, x - left : x - left + columns], place + 1, where=seen)
+    return labels, int(left), int(top)

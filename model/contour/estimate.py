@@ -10,10 +10,11 @@ import numpy as np
 from msgspec import structs
 
 from fairyring.model.contour.coco import ContourError, silhouettes_of
+from fairyring.model.contour.fitted_image import fitted_image
 from fairyring.model.contour.harmonic import Array
 from fairyring.model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
 from fairyring.model.contour.priors import DEFAULT, Priors
-from fairyring.model.contour.together import Together, fit_together
+from fairyring.model.contour.together import Together
 
 LEAST_CAPS = 30
 IN_VIEW = 0.93
@@ -39,19 +40,19 @@ def estimate_priors(document: Any, *, source: str) -> Priors:
         width, height = image["width"], image["height"]
         annotations = groups[image["id"]]
         caps = silhouettes_of(annotations, width=width, height=height)
-        there = [index for index, cap in enumerate(caps) if cap.mask.any()]
-        if not there:
+        whole = {cap: each for cap, each in zip(caps, annotations, strict=True) if cap.pixels}
+        if not whole:
             continue
-        together = fit_together([caps[index] for index in there], DEFAULT, width=width, height=height)
+        together = fitted_image(whole, width=width, height=height).together(list(whole))
+        estimate, own = together.look.estimate, together.look.own
         squares.append(_squares_in_view(together))
-        rims.append(together.fit.residual[together.contact.free])
-        ripples.append(ripple_powers(together.rims, together.fit, together.evidence).ravel())
-        for place, index in enumerate(there):
-            axes = _axes(annotations[index])
+        rims.append(estimate.residual[together.contact.free])
+        ripples.append(ripple_powers(together.rims, estimate, own).ravel())
+        for annotation, around in zip(whole.values(), together.around.log_radius.tolist(), strict=True):
+            axes = _axes(annotation)
             if axes is not None:
                 stretches.append(log(axes[0] / axes[1]) / 2)
-                radius = log(axes[0] * axes[1]) / 2
-                sizes.append(radius - float(together.around.log_radius[place]))
+                sizes.append(log(axes[0] * axes[1]) / 2 - around)
     none = np.zeros((0, 2 + 2 * len(DEFAULT.wobble)))
     priors = _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
     return _with_noise(priors, np.concatenate(rims), np.concatenate(ripples))
@@ -70,9 +71,10 @@ def _with_noise(priors: Priors, residual: Array, ripples: Array) -> Priors:
 
 def _squares_in_view(together: Together) -> Array:
     """(m, H), expected squares of the shape parameters of the caps that can be seen all round."""
-    variance = np.diagonal(together.fit.covariance, axis1=1, axis2=2)[:, 3:]
+    estimate = together.look.estimate
+    variance = np.diagonal(estimate.covariance, axis1=1, axis2=2)[:, 3:]
     # Clipped, for one mislabelled cap would otherwise widen the prior of all.
-    square = together.fit.outlines.shape.clip(-0.3, 0.3) ** 2
+    square = estimate.outlines.shape.clip(-0.3, 0.3) ** 2
     return (square + variance)[together.coverage >= IN_VIEW]
 
 

@@ -65,7 +65,7 @@ class Evidence:
 
 
 @dataclass(frozen=True, slots=True)
-class Fit:
+class Estimate:
     """Outlines and how well they are known."""
 
     outlines: Outlines
@@ -77,7 +77,9 @@ class Fit:
     """(n, K), variance of the outline itself at a point, px²."""
 
 
-def fit_outlines(evidence: Evidence, start: Outlines, priors: Priors, *, softness: Sequence[float]) -> Fit:
+def fit_outlines(
+    evidence: Evidence, start: Outlines, priors: Priors, *, softness: Sequence[float]
+) -> Estimate:
     """Damped Gauss–Newton on the posterior, one step for each of the m ≥ 1 figures in ``softness``.
 
     ``softness`` multiplies the distance at which points stop to count: large figures first find the right
@@ -89,7 +91,7 @@ def fit_outlines(evidence: Evidence, start: Outlines, priors: Priors, *, softnes
     last = _advance(start, evidence, precision, softness[-1])
     covariance: Array = np.linalg.inv(last.curvature)
     doubt: Array = ((covariance @ last.slope) * last.slope).sum(axis=1)
-    return Fit(last.outlines, last.residual, covariance, doubt)
+    return Estimate(last.outlines, last.residual, covariance, doubt)
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,8 +130,10 @@ def _linearised(points: Array, outlines: Outlines) -> tuple[Array, Array]:
     level, turning = (weights[:, None] * _ORDERS[:, : weights.shape[1]] @ harmonics).transpose(1, 0, 2)
     slope = np.empty((len(points), 3 + outlines.shape.shape[1], points.shape[1]))
     # Moving the centre shortens the distance and turns the point's polar angle.
-    moved = toward * (1 - 1j * turning.imag) * (radius**2 / distance)
-    slope[:, 0], slope[:, 1], slope[:, 2] = moved.real, moved.imag, radius
+    nearer = radius**2 / distance
+    slope[:, 0] = (toward.real + toward.imag * turning.imag) * nearer
+    slope[:, 1] = (toward.imag - toward.real * turning.imag) * nearer
+    slope[:, 2] = radius
     np.multiply(harmonics.real, radius[..., None], out=slope[:, 3::2])
     np.multiply(harmonics.imag, radius[..., None], out=slope[:, 4::2])
     along = (weights[:, :1] * harmonics[:, 0]).real

@@ -7,10 +7,12 @@ Wavering that is smooth along the outline has few independent samples and so muc
 
 from __future__ import annotations
 
+from math import log
+
 import numpy as np
 
 from fairyring.model.contour.contact import Contact
-from fairyring.model.contour.harmonic import Array, Evidence, Fit
+from fairyring.model.contour.harmonic import Array, Estimate
 from fairyring.model.contour.priors import Priors
 from fairyring.model.contour.rims import BINS, Rims
 
@@ -35,11 +37,11 @@ USUAL_CAPS = 4
 _WAVES = np.exp(2j * np.pi * np.outer(np.arange(BINS), RIPPLES) / BINS)
 
 
-def deviation(fit: Fit, contact: Contact, priors: Priors, *, before: float) -> float:
+def deviation(estimate: Estimate, contact: Contact, priors: Priors) -> float:
     """The standard deviation of rim points: robust, and leaning on the usual one where there are few."""
-    residual = fit.residual[contact.free]
+    residual = estimate.residual[contact.free]
     if len(residual) == 0:
-        return before
+        return priors.noise
     robust = float(np.median(np.abs(residual))) / 0.6745
     weight = len(residual) + USUAL_POINTS
     return float(np.sqrt((robust**2 * len(residual) + USUAL_POINTS * priors.noise**2) / weight))
@@ -50,21 +52,25 @@ def expected_power(noise: float, priors: Priors) -> float:
     return priors.noise_floor + priors.noise_length * max(noise**2 - PERFECT, 0)
 
 
-def power(rims: Rims, fit: Fit, evidence: Evidence, priors: Priors, *, noise: float) -> float:
+def power(rims: Rims, estimate: Estimate, own: Array, priors: Priors, *, noise: float) -> float:
     """The power of the noise, px³: from the ripples of the caps in view, else as is expected."""
-    ripples = ripple_powers(rims, fit, evidence)
+    ripples = ripple_powers(rims, estimate, own)
     trust = len(ripples) / (len(ripples) + USUAL_CAPS)
     if trust == 0:
         return expected_power(noise, priors)
     # A power is spread exponentially, with the median ln 2 of its mean.
-    beyond = max(float(np.median(ripples)) / np.log(2) - PERFECT_RIPPLE, 0)
+    beyond = max(float(np.median(ripples)) / log(2) - PERFECT_RIPPLE, 0)
     measured = priors.noise_floor + RIPPLE_GAIN * beyond
     return trust * measured + (1 - trust) * expected_power(noise, priors)
 
 
-def ripple_powers(rims: Rims, fit: Fit, evidence: Evidence) -> Array:
-    """(m, 3), the power of each of `RIPPLES` in the rims of the m caps in view, px³."""
-    own = evidence.seen >= 0.5
-    whole = own.mean(axis=1) >= IN_VIEW
-    waves = (fit.residual[whole] * own[whole]) @ _WAVES
+def ripple_powers(rims: Rims, estimate: Estimate, own: Array) -> Array:
+    """(m, 3), the power of each of `RIPPLES` in the rims of the m caps in view, px³.
+
+    ``own`` (n, K) is how probable it is that a rim point lies on the cap's own rim.
+    """
+    seen = own >= 0.5
+    whole = seen.mean(axis=1) >= IN_VIEW
+    # Cap by cap: one product of all would round by their order.
+    waves = ((estimate.residual[whole] * seen[whole])[:, None] @ _WAVES)[:, 0]
     return np.abs(waves) ** 2 * (rims.spacing[whole].sum(axis=1) / BINS**2)[:, None]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.contact import Contact
-from fairyring.model.contour.harmonic import Fit
+from fairyring.model.contour.harmonic import Estimate
 from fairyring.model.contour.rims import Rims
 
 INDEPENDENT = 12.0
@@ -39,7 +39,7 @@ class Meetings:
     """(n, K), the pair met at a point, −1 where there is none."""
 
 
-def meetings_of(contact: Contact, rims: Rims, fit: Fit, *, noise: float) -> Meetings:
+def meetings_of(contact: Contact, rims: Rims, estimate: Estimate, *, noise: float) -> Meetings:
     """Weighs the three readings of every shared border by the residuals of both caps along it."""
     cap, point = np.nonzero(contact.neighbour >= 0)
     other = contact.neighbour[cap, point]
@@ -50,11 +50,11 @@ def meetings_of(contact: Contact, rims: Rims, fit: Fit, *, noise: float) -> Meet
     keys, pair = np.unique(key, return_inverse=True)
     of_point[cap, point] = pair
     samples = rims.spacing[cap, point] / INDEPENDENT
-    residual = fit.residual[cap, point]
-    variance = max(noise, LEAST_NOISE) ** 2 + fit.doubt[cap, point]
+    residual = estimate.residual[cap, point]
+    variance = max(noise, LEAST_NOISE) ** 2 + estimate.doubt[cap, point]
     misfit = -0.5 * np.minimum(residual**2 / variance, WORST)
     as_rim = misfit - 0.5 * np.log(2 * np.pi * variance)
-    as_cover = np.where(residual < 0, 0, misfit) - np.log(SPAN) - fit.outlines.log_radius[cap]
+    as_cover = np.where(residual < 0, 0, misfit) - np.log(SPAN) - estimate.outlines.log_radius[cap]
     side = 2 * pair + (cap > other)
     rim, cover = (
         np.bincount(side, score * samples, minlength=2 * len(keys)).reshape(-1, 2)

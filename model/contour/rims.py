@@ -70,11 +70,14 @@ def _area(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def _even_means(contours: Points, pixels: NDArray[np.int_]) -> NDArray[np.float64]:
     """(n, K, 2): the means of K even stretches of each of n contours that follow one another in one array.
 
-    Each ends where it starts, half of that point for the first stretch and half for the last.
+    Each ends where it starts, half of that point for the first stretch and half for the last. The means of a
+    contour are the same to the last digit whatever the others are.
     """
     total = np.concatenate([np.zeros((1, 2)), np.cumsum(contours, axis=0)])
-    first = np.concatenate([[0], np.cumsum(pixels + 1)[:-1]]) + 0.5
-    at = first[:, None] + pixels[:, None] * np.arange(BINS + 1) / BINS
-    whole = at.astype(np.int64)
-    until = total[whole] + (at - whole)[..., None] * contours[whole]
+    first = np.concatenate([[0], np.cumsum(pixels + 1)[:-1]])[:, None]
+    along = 0.5 + pixels[:, None] * (np.arange(BINS + 1) / BINS)
+    whole = along.astype(np.int64)
+    # Sums of pixel centres are exact, and so are their differences.
+    since = total[first + whole] - total[first]
+    until = since + (along - whole)[..., None] * contours[first + whole]
     return np.diff(until, axis=1) * (BINS / pixels[:, None, None])

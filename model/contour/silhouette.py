@@ -7,6 +7,8 @@ that pixel's centre lies, index + 0.5. The true edge runs a little outside it: s
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from hashlib import blake2b
 from itertools import takewhile
 from math import ceil, floor, sqrt
 
@@ -24,13 +26,42 @@ Along an edge whose normal is (nx, ny) their distance to it is spread evenly ove
 """
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Silhouette:
-    """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``."""
+    """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``.
+
+    Two of the same pixels are equal. A mask is never changed in place.
+    """
 
     mask: NDArray[np.uint8]
     left: int
     top: int
+
+    @property
+    def box(self) -> tuple[int, int, int, int]:
+        """Left, top, right, bottom of the mask."""
+        rows, columns = self.mask.shape
+        return self.left, self.top, self.left + columns, self.top + rows
+
+    @cached_property
+    def pixels(self) -> int:
+        """How many are seen."""
+        return int(self.mask.sum())
+
+    @cached_property
+    def content(self) -> tuple[tuple[int, int, int, int], bytes]:
+        """The box, and a digest of what is in it."""
+        return self.box, blake2b(self.mask.tobytes(), digest_size=16).digest()
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (isinstance(other, Silhouette) and self.content == other.content)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(self.content)
 
 
 NOTHING = Silhouette(np.zeros((0, 0), np.uint8), 0, 0)

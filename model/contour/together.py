@@ -1,95 +1,114 @@
-"""The `map` method: all caps of an image together.
+"""The `map` method: all caps of an image together, in three looks.
 
-First every cap is fitted to what is surely its own rim; then each border between two caps is given to the
-one in front, or to both where they only touch, and all are fitted again. How noisy the masks are, and how far
-from round the caps, is measured on the way.
+The first look fits every cap to what is surely its own rim. Each of the next two gives every border between
+two caps to the one in front, or to both where they only touch, and fits again. So what a look says of a cap
+depends on what the look before said of it and of those it meets, and of no others, but for three figures of
+the whole image that are measured after the second look (`figures.py`). `fitted_image.py` builds on that: to
+give one cap another outline takes its neighbours and theirs, not the image.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 
-from fairyring.model.contour.contact import Contact, contact_of
-from fairyring.model.contour.harmonic import Array, Evidence, Fit, Outlines, fit_outlines
-from fairyring.model.contour.noise import FIRST_NOISE, LEAST_NOISE, deviation, expected_power, power
-from fairyring.model.contour.order import Meetings, meetings_of, seen_share
+from fairyring.model.contour.batch import first_caps
+from fairyring.model.contour.contact import NOBODY, Contact
+from fairyring.model.contour.figures import Figures
+from fairyring.model.contour.harmonic import Array, Estimate, Evidence, Outlines, fit_outlines
+from fairyring.model.contour.noise import FIRST_NOISE, LEAST_NOISE, expected_power
+from fairyring.model.contour.order import meetings_of, seen_share
 from fairyring.model.contour.priors import Priors
-from fairyring.model.contour.rims import Rims, rims_of
+from fairyring.model.contour.rims import Rims
 from fairyring.model.contour.silhouette import Silhouette
 
-FIRST_GLANCE = 0.3
+FIRST_GLANCE = 0.2
 """How probable it is that a border is one's own rim, before anything is known."""
-DECISIONS = 2
-"""How often borders are decided on and caps fitted again."""
+LOOKS = 3
 FIRST_SOFTNESS = (3.0, 2.0, 1.0, 1.0)
 NEXT_SOFTNESS = (1.0, 1.0)
-"""Steps of the first fit and of those after decisions on the borders."""
+"""Steps of the fit of the first look and of those after decisions on the borders."""
 HIDDEN_DOUBT = 0.6
 """Standard deviations grow by this share for a rim that is all hidden: borders may have been misjudged."""
 
 
 @dataclass(frozen=True, slots=True)
+class Look:
+    """What a look says of n caps."""
+
+    estimate: Estimate
+    own: Array
+    """(n, K), how probable it is that a rim point lies on the cap's own rim, as the fit was told."""
+
+
+@dataclass(frozen=True, slots=True)
 class Together:
-    """n caps of an image, fitted."""
+    """n caps of an image after the last look."""
 
     rims: Rims
     contact: Contact
-    meetings: Meetings
-    evidence: Evidence
-    fit: Fit
+    """Neighbours by their place in ``in_sight``."""
+    in_sight: Sequence[Silhouette]
+    look: Look
+    figures: Figures
     around: Outlines
     """The circles around what is visible."""
 
     @property
     def coverage(self) -> Array:
         """(n,), the share of the whole rim that is in sight."""
-        around = 2 * np.pi * np.exp(self.fit.outlines.log_radius)
-        return np.clip((self.evidence.seen * self.rims.spacing).sum(axis=1) / around, 0, 1)
+        around = 2 * np.pi * np.exp(self.look.estimate.outlines.log_radius)
+        return np.clip((self.look.own * self.rims.spacing).sum(axis=1) / around, 0, 1)
 
     @property
     def centre_sd(self) -> Array:
         """(n, 2), one standard deviation of the centre along x and y, pixels."""
-        relative: Array = np.sqrt(self.fit.covariance[:, [0, 1], [0, 1]])
-        radius = np.exp(self.fit.outlines.log_radius)
+        estimate = self.look.estimate
+        relative: Array = np.sqrt(estimate.covariance[:, [0, 1], [0, 1]])
+        radius = np.exp(estimate.outlines.log_radius)
         return relative * (radius * (1 + HIDDEN_DOUBT * (1 - self.coverage)))[:, None]
 
 
-def fit_together(caps: Sequence[Silhouette], priors: Priors, *, width: int, height: int) -> Together:
-    """Fits n ≥ 1 silhouettes, each with something to see, of an image of this size."""
-    rims = rims_of(caps)
-    contact = contact_of(caps, rims, width=width, height=height)
-    around = _enclosing(rims, priors)
-    seen = np.where(contact.neighbour >= 0, FIRST_GLANCE, contact.free)
+def first_look(rims: Rims, contact: Contact, priors: Priors) -> Look:
+    """Fits n ≥ 1 caps, each by itself."""
+    around = enclosing_circles(rims, priors)
+    own = np.where(contact.neighbour == NOBODY, contact.free, FIRST_GLANCE)
     evidence = Evidence(
         points=rims.points,
         weight=rims.spacing / expected_power(FIRST_NOISE, priors),
-        seen=seen,
+        seen=own,
         noise=FIRST_NOISE,
         size=around.log_radius + priors.size_shift,
         stretch=priors.stretch * priors.stretch_hidden,
     )
-    fit = fit_outlines(evidence, around, priors, softness=FIRST_SOFTNESS)
-    for _ in range(DECISIONS):
-        noise = deviation(fit, contact, priors, before=evidence.noise)
-        meetings = meetings_of(contact, rims, fit, noise=noise)
-        evidence = replace(
-            evidence,
-            weight=rims.spacing / power(rims, fit, evidence, priors, noise=noise),
-            seen=seen_share(contact, meetings),
-            noise=max(noise, LEAST_NOISE),
-            stretch=_stretch(fit, priors) * priors.stretch_hidden,
-        )
-        fit = fit_outlines(evidence, fit.outlines, priors, softness=NEXT_SOFTNESS)
-    return Together(
-        rims, contact, meetings_of(contact, rims, fit, noise=evidence.noise), evidence, fit, around
+    return Look(fit_outlines(evidence, around, priors, softness=FIRST_SOFTNESS), own)
+
+
+def next_look(
+    rims: Rims, contact: Contact, before: Look, figures: Figures, priors: Priors, *, caps: int
+) -> Look:
+    """Fits the first n = ``caps`` ≥ 1 of the caps given, by what the look before said of all of them.
+
+    All that those n meet must be among them.
+    """
+    meetings = meetings_of(contact, rims, before.estimate, noise=figures.noise)
+    own = seen_share(contact, meetings)[:caps]
+    rims, outlines = first_caps(rims, caps=caps), first_caps(before.estimate.outlines, caps=caps)
+    evidence = Evidence(
+        points=rims.points,
+        weight=rims.spacing / figures.power,
+        seen=own,
+        noise=max(figures.noise, LEAST_NOISE),
+        size=enclosing_circles(rims, priors).log_radius + priors.size_shift,
+        stretch=figures.stretch * priors.stretch_hidden,
     )
+    return Look(fit_outlines(evidence, outlines, priors, softness=NEXT_SOFTNESS), own)
 
 
-def _enclosing(rims: Rims, priors: Priors) -> Outlines:
+def enclosing_circles(rims: Rims, priors: Priors) -> Outlines:
     """To start from: the circles around the visible rims."""
     origin = rims.points[:, 0]
     around = [
@@ -100,12 +119,3 @@ def _enclosing(rims: Rims, priors: Priors) -> Outlines:
         log_radius=np.log(np.maximum([radius for _, radius in around], 0.5)),
         shape=np.zeros((len(origin), 2 + 2 * len(priors.wobble))),
     )
-
-
-def _stretch(fit: Fit, priors: Priors) -> float:
-    """How far from round this image's caps are, judged by those whose u and v are known to 0.02 or so."""
-    variance = (fit.covariance[:, 3, 3] + fit.covariance[:, 4, 4]) / 2
-    trust = 1 / (1 + variance / 0.02**2)
-    square = np.minimum((fit.outlines.shape[:, :2] ** 2).sum(axis=1) / 2 + variance, 0.3**2)
-    prior_caps = 4
-    return float(np.sqrt((trust @ square + prior_caps * priors.stretch**2) / (trust.sum() + prior_caps)))

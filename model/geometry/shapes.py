@@ -64,6 +64,18 @@ Mark = Circle | Ellipse | Polygon
 """What a person placed for the centre."""
 
 
+class Fit(Struct, frozen=True, kw_only=True):
+    """The whole outline of one cap as it was worked out, or why there is none; pixels."""
+
+    whole: Shape | None = None
+    centre: Centre | None = None
+    """Of the whole outline."""
+    centre_sd: tuple[float, float] | None = None
+    """One standard deviation of the centre along x and y; None where it is not known."""
+    refusal: str | None = None
+    """A sentence; then all else is None."""
+
+
 def points_of_part(part: list[float]) -> Points:
     """The vertices of one part as an (n, 2) array."""
     return np.asarray(part, dtype=np.float64).reshape(-1, 2)
@@ -118,6 +130,11 @@ def polygon_of_shape(shape: Circle | Ellipse, *, chord_error: float = 0.1) -> li
     half_angle = math.acos(max(0.0, 1.0 - chord_error / max(shape.a, chord_error)))
     count = max(12, 2 * math.ceil(math.pi / half_angle / 2))
     return part_of_points(points_on_ellipse(shape, np.arange(count) * (2 * math.pi / count)))
+
+
+def fit_of_shape(shape: Shape, *, centre_sd: tuple[float, float] | None = None) -> Fit:
+    """A whole outline with the centre it has."""
+    return Fit(whole=shape, centre=(shape.cx, shape.cy), centre_sd=centre_sd)
 
 
 def centre_of_shape(shape: Shape) -> Centre:

@@ -47,6 +47,7 @@
  * @property {string | null} form
  * @property {string | null} split
  * @property {Status} status
+ * @property {Record<string, number> | null} figures
  * @property {Record<string, unknown>} extra
  */
 
@@ -247,12 +248,18 @@
 
 /**
  * @typedef {Object} Fit
- * @property {"fit"} type
- * @property {number} seq
- * @property {string} annotation
  * @property {Whole | null} whole
  * @property {Point | null} centre
  * @property {Point | null} centre_sd
+ * @property {string | null} refusal
+ */
+
+/**
+ * @typedef {Object} Fitted
+ * @property {"fit"} type
+ * @property {number} seq
+ * @property {string} annotation
+ * @property {Fit} fit
  * @property {Arc[]} arcs
  * @property {string} note
  */
@@ -278,6 +285,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Changed | Predicted | Fit | Layers | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Changed | Predicted | Fitted | Layers | Command | Notice} FromServer */
 
 export {};

@@ -6,9 +6,10 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, func, insert, select
 
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.db.schema import annotation, category, image, prediction, run
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Annotation, Cap, Image, Mark, Prediction, Run
+from fairyring.storage.records import Annotation, Cap, Image, Prediction, Run
 
 Point = tuple[float, float]
 AnyRow = Row[*tuple[Any, ...]]
@@ -35,6 +36,7 @@ def image_of(row: AnyRow) -> Image:
         form=row.form,
         split=row.split,
         status=row.status,
+        figures=row.figures,
         extra=row.extra,
     )
 
@@ -101,10 +103,10 @@ def values_of_cap(cap: Cap, *, categories: dict[str, int]) -> dict[str, Any]:
     }
 
 
-def values_of_fit(whole: Mark | None, centre: Point | None, refusal: str | None) -> dict[str, Any]:
+def values_of_fit(fit: Fit) -> dict[str, Any]:
     """The columns that are derived."""
-    x, y = centre or (None, None)
-    return {"whole": whole, "centre_x": x, "centre_y": y, "refusal": refusal}
+    x, y = fit.centre or (None, None)
+    return {"whole": fit.whole, "centre_x": x, "centre_y": y, "refusal": fit.refusal}
 
 
 def load_categories(connection: Connection) -> dict[str, int]:

@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct, structs
 from sqlalchemy import Connection, insert, select, update
 
-from fairyring.model.geometry.shapes import polygon_of_shape
+from fairyring.model.geometry.shapes import Fit, polygon_of_shape
 from fairyring.storage.db import schema
 from fairyring.storage.db.bulk import insert_many
 from fairyring.storage.db.clock import now
@@ -85,7 +85,7 @@ def enter_annotations(
         owners[uid] = photo.id
         annotations.append(
             values_of_cap(cap.cap, categories=ids)
-            | values_of_fit(cap.whole, cap.centre, None)
+            | values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"uid": uid, "image": photo.id, "revision": 1, "deleted": False, "extra": cap.extra}
             | {"edited_by": user, "edited_at": time}
         )
@@ -120,7 +120,7 @@ def enter_predictions(
             continue
         present.add((photo.id, cap.uid or ""))
         rows.append(
-            values_of_fit(cap.whole, cap.centre, None)
+            values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
         )

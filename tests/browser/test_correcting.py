@@ -87,7 +87,7 @@ def test_a_selected_cap_tells_its_arcs_and_its_doubt_and_goes_on_telling_while_d
     fit = tab.state("fit")
     assert fit["annotation"] == prediction["uid"]
     assert {arc["kind"] for arc in fit["arcs"]} <= {"visible", "hidden", "border", "concave"}
-    assert all(0 < sd < 20 for sd in fit["centre_sd"])
+    assert all(0 < sd < 20 for sd in fit["fit"]["centre_sd"])
     tab.page.get_by_text(fit["note"]).wait_for()
     corner, middle = (part[0], part[1]), centroid(part)
     way = tuple(at + 0.2 * (at - centre) for at, centre in zip(corner, middle, strict=True))

@@ -10,7 +10,7 @@ import pytest
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, fit_of_shape
 from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.journal import Derived, commit
@@ -42,7 +42,7 @@ def marked(project: Path) -> tuple[Path, str]:
             mark = Circle(x + (OFF_PX if number == 2 else 0.0), y, 20.0)
             cap = Cap(visible=prediction.visible, mark=mark, prediction=prediction.id)
             edit = Edit(id=f"e{number}", annotation=f"cap{number}", image=first.id, base=0, cap=cap)
-            edits.append(Derived(edit=edit, whole=mark, centre=(mark.cx, mark.cy)))
+            edits.append(Derived(edit=edit, fit=fit_of_shape(mark)))
         commit(opened, edits, user="Ada")
     return project, first.file_name
 

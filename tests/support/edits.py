@@ -2,12 +2,14 @@
 
 import sqlite3
 
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.records import Edit
 
 
 def edit(number="e1", *, annotation="cap", image=1, base=0, cap=None, **derived):
-    return Derived(edit=Edit(id=number, annotation=annotation, image=image, base=base, cap=cap), **derived)
+    made = Edit(id=number, annotation=annotation, image=image, base=base, cap=cap)
+    return Derived(edit=made, fit=Fit(**derived))
 
 
 def one(project, *args, user="ann", **kwargs):

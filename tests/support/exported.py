@@ -2,6 +2,7 @@
 
 import json
 
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.records import Edit
@@ -15,7 +16,7 @@ def store(project, *caps, image=1, **derived):
         Edit(id=f"{image} {n}", annotation=f"{image}_{n}", image=image, base=0, cap=cap)
         for n, cap in enumerate(caps)
     ]
-    outcomes = commit(project, [Derived(edit=edit, **derived) for edit in edits], user="ann")
+    outcomes = commit(project, [Derived(edit=edit, fit=Fit(**derived)) for edit in edits], user="ann")
     assert all(type(outcome).__name__ == "Accepted" for outcome in outcomes), outcomes
 
 

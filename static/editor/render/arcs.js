@@ -12,14 +12,14 @@ import { strokeCased, traceRing } from "./paths.js";
 
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").View} View */
-/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 /** @typedef {CanvasRenderingContext2D} Context */
 
 const ARC_PX = 4;
 /** A centre known better than this is drawn so: a smaller ellipse could not be seen. */
 const LEAST_PX = 2.5;
 
-/** @type {(context: Context, view: View, fit: Fit) => void} */
+/** @type {(context: Context, view: View, fitted: Fitted) => void} */
 export function drawArcs(context, view, { arcs }) {
   for (const { kind, points } of arcs) {
     const { colour, dash } = ARCS[kind];
@@ -42,9 +42,9 @@ export function drawArcs(context, view, { arcs }) {
 /**
  * The ellipse of one standard deviation around the centre.
  *
- * @type {(context: Context, view: View, fit: Fit) => void}
+ * @type {(context: Context, view: View, fitted: Fitted) => void}
  */
-export function drawUncertainty(context, view, { centre, centre_sd }) {
+export function drawUncertainty(context, view, { fit: { centre, centre_sd } }) {
   if (!centre || !centre_sd) return;
   const [rx, ry] = centre_sd.map((sd) => Math.max(sd * view.scale, LEAST_PX));
   context.beginPath();
@@ -52,8 +52,8 @@ export function drawUncertainty(context, view, { centre, centre_sd }) {
   strokeCased(context, { colour: COLOURS.whole, width: 1.5, casing: CASING });
 }
 
-/** What all that covers, image pixels. @type {(fit: Fit) => Bounds | null} */
-export function reachOfFit({ arcs, centre, centre_sd }) {
+/** What all that covers, image pixels. @type {(fitted: Fitted) => Bounds | null} */
+export function reachOfFit({ arcs, fit: { centre, centre_sd } }) {
   const boxes = arcs.map(({ points }) => boundsOfPoints(points));
   if (centre && centre_sd) {
     const [[x, y], [sx, sy]] = [centre, centre_sd];

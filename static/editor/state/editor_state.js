@@ -21,7 +21,7 @@ import { Viewport } from "./viewport.js";
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").ImageContents} ImageContents */
-/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 /** @typedef {import("../protocol.js").Image} Image */
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../protocol.js").Prediction} Prediction */
@@ -36,8 +36,8 @@ export class EditorState {
   drafts = new Drafts();
   layers = new Layers();
   viewport = new Viewport(() => this.signals.overlay.emit());
-  /** What the server said last about an outline. @type {Fit | null} */
-  fit = null;
+  /** What the server said last about an outline. @type {Fitted | null} */
+  fitted = null;
 
   signals = {
     /** The picture of these shapes has changed. @type {import("./signal.js").Signal<[Shape[]]>} */
@@ -94,11 +94,11 @@ export class EditorState {
   /**
    * How the outline of the one selected cap came about; a placed one needs no telling.
    *
-   * @returns {Fit | null}
+   * @returns {Fitted | null}
    */
   get explanation() {
-    const { sole, fit } = this;
-    return sole && fit?.annotation === sole.uid && !placedWhole(sole.cap) ? fit : null;
+    const { sole, fitted } = this;
+    return sole && fitted?.annotation === sole.uid && !placedWhole(sole.cap) ? fitted : null;
   }
 
   /** The uids of what is drawn over the picture rather than in it. */

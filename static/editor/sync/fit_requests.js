@@ -6,7 +6,7 @@
  */
 
 /** @typedef {import("../protocol.js").Cap} Cap */
-/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
 /** @typedef {{image: number, annotation: string, cap: Cap}} Question */
 
@@ -48,11 +48,11 @@ export class FitRequests {
   /**
    * The question this fit answers; null for an answer that is no longer waited for.
    *
-   * @param {Fit} fit
+   * @param {Fitted} fitted
    * @returns {Question | null}
    */
-  take(fit) {
-    if (fit.seq !== this.#seq) return null;
+  take(fitted) {
+    if (fitted.seq !== this.#seq) return null;
     const question = this.#asked;
     this.#go();
     return question;

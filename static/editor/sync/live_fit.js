@@ -9,7 +9,7 @@ import { FitRequests } from "./fit_requests.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Cap} Cap */
-/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 
@@ -24,7 +24,7 @@ export class LiveFit {
    * @param {EditorState} state
    * @param {Object} wires
    * @param {(message: ToServer) => boolean} wires.send
-   * @param {(explanation: Fit | null) => void} wires.told  how the outline at hand came about, if that is known
+   * @param {(explanation: Fitted | null) => void} wires.told  how the outline at hand came about, if that is known
    */
   constructor(state, { send, told }) {
     this.#state = state;
@@ -41,13 +41,13 @@ export class LiveFit {
     this.#asked = null;
   }
 
-  /** @type {(fit: Fit) => void} */
-  take(fit) {
+  /** @type {(fitted: Fitted) => void} */
+  take(fitted) {
     const state = this.#state;
-    if (!this.#requests.take(fit)) return;
-    const draft = state.drafts.get(fit.annotation);
-    if (draft) state.drafts.put({ ...draft, whole: fit.whole, centre: fit.centre });
-    state.fit = fit;
+    if (!this.#requests.take(fitted)) return;
+    const draft = state.drafts.get(fitted.annotation);
+    if (draft) state.drafts.put({ ...draft, whole: fitted.fit.whole, centre: fitted.fit.centre });
+    state.fitted = fitted;
     this.#told(state.explanation);
     state.signals.overlay.emit();
   }

@@ -2,7 +2,7 @@ import { ARCS } from "../render/palette.js";
 import { element } from "./dom.js";
 
 /** @typedef {import("../protocol.js").Arc} Arc */
-/** @typedef {import("../protocol.js").Fit} Fit */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 
 const KINDS = /** @type {Arc["kind"][]} */ (Object.keys(ARCS));
 
@@ -10,7 +10,7 @@ const KINDS = /** @type {Arc["kind"][]} */ (Object.keys(ARCS));
  * The lines that say how the outline of the selected cap came about, and what its arcs are.
  *
  * @param {HTMLElement} host
- * @returns {(fit: Fit | null) => void}
+ * @returns {(fitted: Fitted | null) => void}
  */
 export function captionIn(host) {
   const reason = document.createTextNode("");
@@ -20,22 +20,22 @@ export function captionIn(host) {
   caption.hidden = true;
   host.append(caption);
   let named = "";
-  return (fit) => {
-    caption.hidden = !fit?.note;
-    if (!fit) return;
-    const text = captionOf(fit);
+  return (fitted) => {
+    caption.hidden = !fitted?.note;
+    if (!fitted) return;
+    const text = captionOf(fitted);
     if (reason.data !== text) reason.data = text;
-    const kinds = KINDS.filter((kind) => fit.arcs.some((arc) => arc.kind === kind));
+    const kinds = KINDS.filter((kind) => fitted.arcs.some((arc) => arc.kind === kind));
     if (kinds.join() === named) return;
     named = kinds.join();
     key.replaceChildren(...kinds.map(sampleOf));
   };
 }
 
-/** @type {(fit: Pick<Fit, "note" | "centre_sd">) => string} */
-export function captionOf({ note, centre_sd }) {
-  if (!centre_sd) return note;
-  const [sx, sy] = centre_sd.map((sd) => sd.toFixed(2));
+/** @type {(fitted: Pick<Fitted, "note" | "fit">) => string} */
+export function captionOf({ note, fit }) {
+  if (!fit.centre_sd) return note;
+  const [sx, sy] = fit.centre_sd.map((sd) => sd.toFixed(2));
   return `${note} · centre ± ${sx}, ${sy} px`;
 }
 

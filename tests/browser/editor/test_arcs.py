@@ -25,8 +25,8 @@ def test_an_arc_is_drawn_where_it_lies_in_the_colour_of_its_kind(call) -> None:
 
 def test_the_uncertainty_is_an_ellipse_of_one_standard_deviation_that_never_vanishes(call) -> None:
     where = [(30 + 16, 20), (30, 20 + 6), (30 + 2, 20), (30, 20)]
-    wide = {"centre": [10, 10], "centre_sd": [8, 3]}
-    tiny = {"centre": [10, 10], "centre_sd": [0.01, 0.01]}
+    wide = {"fit": {"centre": [10, 10], "centre_sd": [8, 3]}}
+    tiny = {"fit": {"centre": [10, 10], "centre_sd": [0.01, 0.01]}}
     seen = [
         [
             pixel[3] > 100

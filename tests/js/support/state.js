@@ -19,6 +19,7 @@ const IMAGE = {
   form: null,
   split: null,
   status: "new",
+  figures: null,
   extra: {},
 };
 

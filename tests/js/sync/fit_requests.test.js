@@ -9,9 +9,10 @@ import { capOf, triangle } from "../support/caps.js";
 /** The question about a cap whose outline begins at x. @type {(x: number) => import("../../../static/editor/sync/fit_requests.js").Question} */
 const question = (x) => ({ image: 1, annotation: "u", cap: capOf(triangle(x)) });
 
-/** @type {(seq: number) => import("../../../static/editor/protocol.js").Fit} */
-const fit = (seq) => {
-  return { type: "fit", seq, annotation: "u", whole: null, centre: null, centre_sd: null, arcs: [], note: "" };
+/** @type {(seq: number) => import("../../../static/editor/protocol.js").Fitted} */
+const fitted = (seq) => {
+  const fit = { whole: null, centre: null, centre_sd: null, refusal: null };
+  return { type: "fit", seq, annotation: "u", fit, arcs: [], note: "" };
 };
 
 /** Requests, and what they have sent: number and x. */
@@ -29,9 +30,9 @@ test("one fit is asked for at a time, and of the questions that wait the latest"
   const { asking, sent } = requests();
   for (const x of [1, 2, 3]) asking.ask(question(x));
   assert.deepEqual(sent, [[1, 1]]);
-  assert.equal(asking.take(fit(99)), null);
-  assert.deepEqual(asking.take(fit(1)), question(1));
-  assert.deepEqual(asking.take(fit(2)), question(3));
+  assert.equal(asking.take(fitted(99)), null);
+  assert.deepEqual(asking.take(fitted(1)), question(1));
+  assert.deepEqual(asking.take(fitted(2)), question(3));
   assert.deepEqual(sent, [
     [1, 1],
     [2, 3],
@@ -48,8 +49,8 @@ test("a question that was given up does not hold up the next, and its answer is 
     [1, 1],
     [2, 3],
   ]);
-  assert.equal(asking.take(fit(1)), null);
-  assert.deepEqual(asking.take(fit(2)), question(3));
+  assert.equal(asking.take(fitted(1)), null);
+  assert.deepEqual(asking.take(fitted(2)), question(3));
 });
 
 test("what could not be sent is not waited for", () => {
@@ -58,5 +59,5 @@ test("what could not be sent is not waited for", () => {
   asking.ask(question(1));
   up = true;
   asking.ask(question(2));
-  assert.deepEqual(asking.take(fit(2)), question(2));
+  assert.deepEqual(asking.take(fitted(2)), question(2));
 });

@@ -30,9 +30,13 @@ test("the status line never says saved when edits could not be kept", () => {
   assert.equal(tone, "bad");
 });
 
+/** @type {import("../../../static/editor/protocol.js").Fit} */
+const FIT = { whole: null, centre: null, centre_sd: null, refusal: null };
+
 test("the caption gives the reason and how well the centre is known", () => {
-  assert.equal(captionOf({ note: "regular", centre_sd: [0.1234, 2] }), "regular · centre ± 0.12, 2.00 px");
-  assert.equal(captionOf({ note: "the marked circle", centre_sd: null }), "the marked circle");
+  const known = { ...FIT, centre_sd: /** @type {[number, number]} */ ([0.1234, 2]) };
+  assert.equal(captionOf({ note: "regular", fit: known }), "regular · centre ± 0.12, 2.00 px");
+  assert.equal(captionOf({ note: "the marked circle", fit: FIT }), "the marked circle");
 });
 
 test("arcs of all kinds differ by dash alone", () => {

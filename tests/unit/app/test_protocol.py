@@ -10,7 +10,7 @@ import msgspec
 import pytest
 
 from fairyring.app import protocol as messages
-from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Fit, Polygon
 from fairyring.storage import records
 
 SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "protocol.js").read_text(encoding="utf-8")
@@ -26,6 +26,7 @@ STRUCTS = (
     Circle,
     Ellipse,
     Polygon,
+    Fit,
     messages.Arc,
     *get_args(messages.Incoming),
     *get_args(messages.Outgoing),

@@ -1,16 +1,8 @@
 import pytest
 
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, Fit
 from fairyring.storage.contents import load_contents
-from fairyring.storage.derived import (
-    AnnotationFit,
-    Fit,
-    PredictionFit,
-    Underived,
-    images_with_underived,
-    store_derived,
-    underived_of,
-)
+from fairyring.storage.derived import Underived, images_with_underived, store_derived, underived_of
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
@@ -46,12 +38,7 @@ def test_what_lacks_a_whole_outline_is_found_until_it_is_stored(lacking):
         assert underived_of(connection, 2) == Underived(annotations=[], predictions=[])
 
     def store(connection):
-        return store_derived(
-            connection,
-            1,
-            annotations=[AnnotationFit(uid="a", revision=1, fit=FIT)],
-            predictions=[PredictionFit(id=1, fit=FIT)],
-        )
+        return store_derived(connection, 1, annotations={("a", 1): FIT}, predictions={1: FIT})
 
     assert lacking.write(store) == 2
     with lacking.read() as connection:
@@ -63,10 +50,8 @@ def test_what_lacks_a_whole_outline_is_found_until_it_is_stored(lacking):
 
 
 def test_a_refused_fit_is_not_tried_again_until_the_cap_is_edited(lacking, square):
-    refused = AnnotationFit(uid="a", revision=1, fit=Fit(refusal="too little of it is in sight"))
-    lacking.write(
-        lambda c: store_derived(c, 1, annotations=[refused], predictions=[PredictionFit(id=1, fit=Fit())])
-    )
+    refused = Fit(refusal="too little of it is in sight")
+    lacking.write(lambda c: store_derived(c, 1, annotations={("a", 1): refused}, predictions={1: Fit()}))
     with lacking.read() as connection:
         assert images_with_underived(connection) == []
     commit(
@@ -81,8 +66,7 @@ def test_a_refused_fit_is_not_tried_again_until_the_cap_is_edited(lacking, squar
 def test_a_fit_of_an_older_revision_is_dropped(lacking, square):
     later = Edit(id="9", annotation="a", image=1, base=1, cap=Cap(visible=square))
     commit(lacking, [Derived(edit=later)], user="ann")
-    stale = AnnotationFit(uid="a", revision=1, fit=FIT)
-    assert lacking.write(lambda c: store_derived(c, 1, annotations=[stale])) == 0
+    assert lacking.write(lambda c: store_derived(c, 1, annotations={("a", 1): FIT})) == 0
     with lacking.read() as connection:
         assert stored_annotation(connection, "a").whole is None
 

@@ -3,7 +3,7 @@ import math
 import pytest
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, Fit, fit_of_shape
 from fairyring.storage.contents import (
     load_contents,
     load_prediction,
@@ -54,7 +54,7 @@ def test_there_may_be_no_run(project):
 
 def test_predictions_are_kept_as_they_were_made(beds, square):
     whole = Circle(20.5, 20.5, 12.0)
-    new = NewPrediction(visible=square, score=0.75, whole=whole, centre=(20.5, 20.5), extra={"a": [1]})
+    new = NewPrediction(visible=square, score=0.75, fit=fit_of_shape(whole), extra={"a": [1]})
 
     def work(connection):
         run = add_run(connection, name="r", kind="network")
@@ -172,7 +172,7 @@ def test_a_run_of_the_same_weights_and_settings_goes_on_until_another_is_made(be
 
 
 def test_a_cap_without_a_whole_outline_keeps_the_reason(beds, square):
-    new = NewPrediction(visible=square, score=0.5, refusal="Too little of its rim is in sight.")
+    new = NewPrediction(visible=square, score=0.5, fit=Fit(refusal="Too little of its rim is in sight."))
 
     def work(connection):
         run = add_run(connection, name="r", kind="network")

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 
 import pytest
 
 from fairyring.app.caps.comparison import Reviewer, compare_cap, compare_image
-from fairyring.app.caps.image_caps import Scene
-from fairyring.app.caps.whole_outlines import fill_in
+from fairyring.app.caps.filling_in import fill_in
+from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.jobs.comparing import compare_work
 from fairyring.app.jobs.runner import CancelledError
 from fairyring.app.protocol import Show
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, Fit, fit_of_shape
 from fairyring.model.progress import silent
 from fairyring.storage.comparisons import list_comparisons, stale_images
-from fairyring.storage.contents import load_annotations, load_predictions
-from fairyring.storage.images import get_image
+from fairyring.storage.contents import load_contents, load_predictions
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Edit
@@ -37,12 +37,12 @@ def mark_both(project: Project) -> None:
         for uid, centre in centres.items()
     ]
     far = new_cap(1, uid="far", edit="far", visible=circle(75, 105, 8))
-    commit(project, [Derived(edit=edit, **_fit(edit)) for edit in (*edits, far)], user="Ada")
+    commit(project, [Derived(edit=edit, fit=_fit(edit)) for edit in (*edits, far)], user="Ada")
 
 
-def _fit(edit: Edit) -> dict:
+def _fit(edit: Edit) -> Fit:
     mark = edit.cap.mark if edit.cap else None
-    return {"whole": mark, "centre": (mark.cx, mark.cy)} if mark else {}
+    return fit_of_shape(mark) if isinstance(mark, Circle) else Fit()
 
 
 def test_an_image_is_compared_as_equation_10_says(project: Project) -> None:
@@ -61,14 +61,12 @@ def test_an_image_is_compared_as_equation_10_says(project: Project) -> None:
 def test_a_cap_is_compared_among_its_neighbours_with_the_same_result(project: Project) -> None:
     mark_both(project)
     with project.read() as connection:
-        image = get_image(connection, 1)
-        annotations = {a.uid: a for a in load_annotations(connection, 1)}
-        scene = Scene(image, annotations, load_predictions(connection, 1))
-    pair = compare_cap(scene, "left")
+        caps = replace(caps_of(load_contents(connection, 1)), predictions=load_predictions(connection, 1))
+    pair = compare_cap(caps, "left")
     assert pair is not None
     assert pair.error is not None
     assert pair.error.cdr == pytest.approx(1.5)
-    assert compare_cap(scene, "far") is None
+    assert compare_cap(caps, "far") is None
 
 
 def test_an_image_no_run_has_seen_is_not_compared(project: Project) -> None:

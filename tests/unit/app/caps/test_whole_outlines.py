@@ -2,58 +2,75 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import msgspec
 import numpy as np
 import pytest
 
-from fairyring.app.caps.image_caps import Scene, scene_of
+from fairyring.app.caps.filling_in import fill_in
+from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.caps.nearby import Boxes, box_of, keys_near
-from fairyring.app.caps.whole_outlines import derive_edits, fill_in, refit, whole_of
+from fairyring.app.caps.whole_outlines import derive_edits, note_of, reconstruction_of, refit
 from fairyring.app.protocol import Refit
-from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, diameter_of_shape
+from fairyring.model.geometry.shapes import Circle, Ellipse, Outline, Polygon, diameter_of_shape
 from fairyring.storage.contents import load_annotations, load_contents
-from fairyring.storage.derived import images_with_underived
 from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit, Image
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Prediction
 from tests.support.tab import SQUARE, new_cap
 from tests.unit.app.conftest import circle
 
 IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=160, height=120, sha256="")
-SCENE = Scene(IMAGE, {}, [])
+
+
+def image_with(*annotations: Annotation) -> ImageCaps:
+    known = {annotation.uid: annotation for annotation in annotations}
+    return ImageCaps(IMAGE, known, [], Fitting(IMAGE, known_figures(IMAGE)))
+
+
+def contents_of(project: Project) -> ImageCaps:
+    with project.read() as connection:
+        return caps_of(load_contents(connection, 1))
 
 
 def test_a_mark_is_its_own_whole_outline() -> None:
     for mark in (Circle(50, 40, 10), Ellipse(50, 40, 12, 10, 30)):
-        whole = whole_of("a", Cap(visible=SQUARE, mark=mark), SCENE)
-        assert whole.shape == mark
-        assert whole.centre == (50, 40)
+        fit = reconstruction_of("a", Cap(visible=SQUARE, mark=mark), image_with()).fit
+        assert fit.whole == mark
+        assert fit.centre == (50, 40)
 
 
 def test_a_marked_polygon_gives_the_ellipse_fitted_to_its_points() -> None:
-    whole = whole_of("a", Cap(visible=[], mark=Polygon(circle(60, 50, 20, points=20)[0])), SCENE)
-    assert whole.centre == pytest.approx((60, 50), abs=1e-6)
-    assert "polygon" in whole.note
+    cap = Cap(visible=[], mark=Polygon(circle(60, 50, 20, points=20)[0]))
+    found = reconstruction_of("a", cap, image_with())
+    assert found.fit.centre == pytest.approx((60, 50), abs=1e-6)
+    assert "polygon" in note_of(found)
 
 
 def test_a_round_cap_is_found_where_it_is() -> None:
-    whole = whole_of("a", Cap(visible=circle(70.25, 55.5, 24)), SCENE)
-    assert whole.centre == pytest.approx((70.25, 55.5), abs=0.1)
-    assert whole.shape is not None
-    assert diameter_of_shape(whole.shape) == pytest.approx(48, abs=1)
+    fit = reconstruction_of("a", Cap(visible=circle(70.25, 55.5, 24)), image_with()).fit
+    assert fit.centre == pytest.approx((70.25, 55.5), abs=0.1)
+    assert fit.whole is not None
+    assert diameter_of_shape(fit.whole) == pytest.approx(48, abs=1)
 
 
 @pytest.mark.parametrize(
     "visible", [[], [[]], [[1.0, 2.0]], [[1.0, 2.0, 3.0]], [[1e12, 0.0, 0.0, 1e12, -1e12, 0.0]], [[5.0] * 8]]
 )
 def test_a_wild_outline_gives_a_sentence_and_never_reaches_the_rasteriser(visible: list) -> None:
-    whole = whole_of("a", Cap(visible=visible), SCENE)
-    assert whole.shape is None
-    assert whole.note.endswith(".")
+    found = reconstruction_of("a", Cap(visible=visible), image_with())
+    assert found.fit.whole is None
+    assert note_of(found).endswith(".")
 
 
 @pytest.mark.parametrize("mark", [Circle(50, 40, -1), Circle(1e12, 0, 5), Polygon([1.0, 2.0, 3.0])])
 def test_a_wild_mark_gives_a_sentence(mark: Circle | Polygon) -> None:
-    assert whole_of("a", Cap(visible=SQUARE, mark=mark), SCENE).shape is None
+    fit = reconstruction_of("a", Cap(visible=SQUARE, mark=mark), image_with()).fit
+    assert fit.whole is None
+    assert fit.refusal is not None
 
 
 def test_neighbours_are_those_whose_boxes_touch() -> None:
@@ -65,32 +82,27 @@ def test_neighbours_are_those_whose_boxes_touch() -> None:
     assert box_of(SQUARE) == (20.0, 20.0, 60.0, 60.0)
 
 
-def test_context_leaves_out_predictions_that_somebody_took_up(project: Project) -> None:
-    with project.read() as connection:
-        contents = load_contents(connection, 1)
-    left, right = contents.predictions
+def test_what_is_visible_leaves_out_predictions_that_somebody_took_up(project: Project) -> None:
+    left, right = contents_of(project).predictions
     commit(project, [Derived(edit=new_cap(1, prediction=left.id))], user="Ada")
     with project.read() as connection:
         annotations = {a.uid: a for a in load_annotations(connection, 1)}
-    scene = Scene(contents.image, annotations, contents.predictions)
-    assert set(scene.visible) == {"cap-1", f"prediction {right.id}"}
+    caps = contents_of(project).with_annotations(annotations)
+    assert set(caps.visible) == {"cap-1", f"prediction {right.id}"}
 
 
 def test_a_refit_says_what_the_edit_will_store(project: Project) -> None:
     cap = Cap(visible=circle(90, 70, 18))
-    with project.read() as connection:
-        contents = load_contents(connection, 1)
-    fit = refit(scene_of(contents), Refit(seq=1, image=1, annotation="a", cap=cap))
-    stored = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])[0]
-    assert fit.whole == stored.whole
-    assert fit.centre == stored.centre
+    live = refit(contents_of(project), Refit(seq=1, image=1, annotation="a", cap=cap))
+    (stored,) = derive_edits(project, [Edit(id="e", annotation="a", image=1, base=0, cap=cap)])
+    assert live.fit == stored.fit
 
 
 def test_a_refit_tells_the_arcs_of_an_outline_apart_and_how_well_the_centre_is_known() -> None:
     whole, cut = circle(70, 55, 24), circle(4, 60, 24)
     cut[0][0::2] = [max(x, 0.0) for x in cut[0][0::2]]
     free, bordered = (
-        refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=Cap(visible=outline)))
+        refit(image_with(), Refit(seq=1, image=1, annotation="a", cap=Cap(visible=outline)))
         for outline in (whole, cut)
     )
     assert [arc.kind for arc in free.arcs] == ["visible"]
@@ -99,9 +111,9 @@ def test_a_refit_tells_the_arcs_of_an_outline_apart_and_how_well_the_centre_is_k
     assert sorted(arc.kind for arc in bordered.arcs) == ["border", "visible"]
     border = next(arc for arc in bordered.arcs if arc.kind == "border")
     assert max(border.points[0::2]) < 2
-    assert free.centre_sd is not None
-    assert bordered.centre_sd is not None
-    assert 0 < free.centre_sd[0] < bordered.centre_sd[0]
+    assert free.fit.centre_sd is not None
+    assert bordered.fit.centre_sd is not None
+    assert 0 < free.fit.centre_sd[0] < bordered.fit.centre_sd[0]
     assert free.note.startswith("regular")
     assert bordered.note.startswith("irregular")
 
@@ -114,11 +126,10 @@ def test_a_refit_names_the_piece_that_a_neighbour_hides() -> None:
     far = np.maximum(np.hypot(*away.T), 24)[:, None]
     bitten = (90, 60) + away / np.hypot(*away.T)[:, None] * far
     front = Annotation(uid="front", image=1, revision=1, cap=Cap(visible=circle(90, 60, 24, points=80)))
-    scene = Scene(IMAGE, {"front": front}, [])
     cap = Cap(visible=[bitten.ravel().tolist()])
-    fit = refit(scene, Refit(seq=1, image=1, annotation="a", cap=cap))
-    assert fit.centre == pytest.approx((60, 60), abs=0.5)
-    hidden = [arc for arc in fit.arcs if arc.kind == "hidden"]
+    live = refit(image_with(front), Refit(seq=1, image=1, annotation="a", cap=cap))
+    assert live.fit.centre == pytest.approx((60, 60), abs=0.5)
+    hidden = [arc for arc in live.arcs if arc.kind == "hidden"]
     assert len(hidden) == 1
     seam = np.reshape(hidden[0].points, (-1, 2))
     assert np.hypot(*(seam - (90, 60)).T) == pytest.approx(24, abs=1.5)
@@ -126,14 +137,16 @@ def test_a_refit_names_the_piece_that_a_neighbour_hides() -> None:
 
 def test_a_mark_has_no_arcs_and_no_doubt_about_its_centre() -> None:
     cap = Cap(visible=SQUARE, mark=Circle(50, 40, 10))
-    fit = refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=cap))
-    assert (fit.arcs, fit.centre_sd, fit.note) == ([], None, "the marked circle")
+    live = refit(image_with(), Refit(seq=1, image=1, annotation="a", cap=cap))
+    assert (live.arcs, live.fit.centre_sd, live.note) == ([], None, "the marked circle")
 
 
 def test_a_refit_of_a_wild_outline_says_why_there_is_none() -> None:
-    fit = refit(SCENE, Refit(seq=1, image=1, annotation="a", cap=Cap(visible=[[1.0, 2.0]])))
-    assert (fit.whole, fit.centre, fit.arcs) == (None, None, [])
-    assert fit.note.endswith(".")
+    cap = Cap(visible=[[1.0, 2.0]])
+    live = refit(image_with(), Refit(seq=1, image=1, annotation="a", cap=cap))
+    assert (live.fit.whole, live.fit.centre, live.arcs) == (None, None, [])
+    assert live.note == live.fit.refusal
+    assert live.note.endswith(".")
 
 
 def test_edits_that_make_no_sense_are_left_to_the_journal(project: Project) -> None:
@@ -143,32 +156,123 @@ def test_edits_that_make_no_sense_are_left_to_the_journal(project: Project) -> N
     good = new_cap(1, uid="z", edit="e4")
     found = derive_edits(project, [wild, elsewhere, deletion, good])
     assert [item.edit for item in found] == [wild, elsewhere, deletion, good]
-    assert [item.whole is None for item in found] == [True, True, True, False]
+    assert [item.fit.whole is None for item in found] == [True, True, True, False]
 
 
-def test_filling_in_finds_what_is_missing_and_then_nothing_more(project: Project) -> None:
-    commit(project, [Derived(edit=new_cap(2, mark=Circle(30, 30, 9)))], user="Ada")
-    seen: list[tuple[int, int, str]] = []
-    assert fill_in(project, progress=lambda *step: seen.append(step)) == 3
-    assert [step[:2] for step in seen] == [(0, 2), (1, 2)]
-    with project.read() as connection:
-        assert images_with_underived(connection) == []
-        marked = load_annotations(connection, 2)[0]
-        left, right = load_contents(connection, 1).predictions
-    assert marked.centre == (30, 30)
-    assert left.centre == pytest.approx((40, 40), abs=0.25)
-    assert right.centre == pytest.approx((110, 60), abs=0.25)
-    assert fill_in(project) == 0
+def bitten(x: float, y: float, r: float, front: tuple[float, float, float]) -> Outline:
+    """The outline of a round cap that lies partly under another round one."""
+    angles = np.linspace(0, 2 * np.pi, 90, endpoint=False)
+    rim = np.stack([x + r * np.cos(angles), y + r * np.sin(angles)], axis=1)
+    away = rim - front[:2]
+    far = np.maximum(np.hypot(*away.T), front[2])[:, None]
+    return [(front[:2] + away / np.hypot(*away.T)[:, None] * far).ravel().tolist()]
 
 
-def test_filling_in_can_be_stopped_between_images(project: Project) -> None:
-    commit(project, [Derived(edit=new_cap(2))], user="Ada")
+FRONT = (80.0, 60.0, 20.0)
+CROWD = [
+    circle(*FRONT, points=60),
+    bitten(55, 55, 18, FRONT),
+    bitten(104, 64, 19, FRONT),
+    bitten(82, 92, 17, FRONT),
+    bitten(84, 30, 18, FRONT),
+    circle(20, 100, 12),
+]
 
-    def stop(done: int, _total: int, _what: str) -> None:
-        if done == 1:
-            raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        fill_in(project, progress=stop)
-    with project.read() as connection:
-        assert images_with_underived(connection) == [2]
+SMALLER = circle(86, 62, 11, points=60)
+"""The cap in front as somebody corrects it: it no longer explains what hides the others."""
+
+
+@pytest.fixture
+def crowded(project: Project) -> Project:
+    """A project whose first image shows a heap of caps that a run saw, whole outlines and all."""
+
+    def predict(connection: object) -> None:
+        run = add_run(connection, name="later", kind="simulated")
+        new = [NewPrediction(visible=cap, score=0.9, uid=str(n)) for n, cap in enumerate(CROWD)]
+        add_predictions(connection, run_id=run.id, image_id=1, predictions=new)
+
+    project.write(predict)
+    fill_in(project)
+    return project
+
+
+def accepted(prediction: Prediction, **changes: object) -> Edit:
+    cap = Cap(**{"visible": prediction.visible, "prediction": prediction.id, **changes})
+    return Edit(id=f"e{prediction.id}", annotation=f"a{prediction.id}", image=1, base=0, cap=cap)
+
+
+def store(project: Project, edits: Sequence[Edit]) -> list[Annotation]:
+    outcomes = commit(project, derive_edits(project, edits), user="Ada")
+    return [outcome.annotation for outcome in outcomes]
+
+
+def stored(cap: Prediction | Annotation) -> tuple[object, object]:
+    return cap.whole, cap.centre
+
+
+def test_predictions_accepted_as_they_are_keep_outline_and_centre_to_the_last_digit(
+    crowded: Project,
+) -> None:
+    predictions = contents_of(crowded).predictions
+    assert len(predictions) == len(CROWD)
+    one_by_one = [store(crowded, [accepted(prediction)])[0] for prediction in predictions[:3]]
+    together = store(crowded, [accepted(prediction) for prediction in predictions[3:]])
+    assert [stored(cap) for cap in (*one_by_one, *together)] == [stored(cap) for cap in predictions]
+
+
+def test_the_live_fit_of_an_untouched_prediction_is_what_is_stored_of_it(crowded: Project) -> None:
+    caps = contents_of(crowded)
+    for prediction in caps.predictions:
+        edit = accepted(prediction)
+        live = refit(caps, Refit(seq=1, image=1, annotation=f"prediction:{prediction.id}", cap=edit.cap))
+        assert (live.fit.whole, live.fit.centre) == stored(prediction)
+
+
+def test_accepting_next_to_a_corrected_cap_fits_anew_and_far_from_it_does_not(crowded: Project) -> None:
+    front, beside, *_, far = contents_of(crowded).predictions
+    store(crowded, [accepted(front, visible=SMALLER)])
+    assert stored(store(crowded, [accepted(far)])[0]) == stored(far)
+    moved = store(crowded, [accepted(beside)])[0]
+    assert moved.centre != beside.centre
+    assert moved.centre == pytest.approx(beside.centre, abs=2)
+
+
+def test_an_edit_of_one_cap_leaves_what_is_stored_of_its_neighbours(crowded: Project) -> None:
+    front, beside, *_ = contents_of(crowded).predictions
+    neighbour = store(crowded, [accepted(beside)])[0]
+    store(crowded, [accepted(front, visible=SMALLER)])
+    cap = neighbour.cap
+    flagged = Edit(
+        id="flag", annotation=neighbour.uid, image=1, base=1, cap=msgspec.structs.replace(cap, doubtful=True)
+    )
+    caps = contents_of(crowded)
+    assert stored(caps.annotations[neighbour.uid]) == stored(neighbour)
+    live = refit(caps, Refit(seq=1, image=1, annotation=neighbour.uid, cap=flagged.cap))
+    assert (live.fit.whole, live.fit.centre) == stored(neighbour)
+    assert "fitted anew its centre would move" in live.note
+    assert stored(store(crowded, [flagged])[0]) == stored(neighbour)
+
+
+def test_a_cap_that_is_moved_and_moved_back_is_where_it_was(crowded: Project) -> None:
+    front = contents_of(crowded).predictions[0]
+    there = store(crowded, [accepted(front)])[0]
+    x, y, r = FRONT
+    for nth, outline in enumerate((circle(x + 3, y, r, points=60), front.visible), start=1):
+        cap = Cap(visible=outline, prediction=front.id)
+        edit = Edit(id=f"move{nth}", annotation=there.uid, image=1, base=nth, cap=cap)
+        (moved,) = store(crowded, [edit])
+        assert (stored(moved) == stored(there)) == (nth == 2)
+
+
+def test_turning_down_a_prediction_takes_it_from_its_neighbours(crowded: Project) -> None:
+    front, beside, *_ = contents_of(crowded).predictions
+    made = accepted(front)
+    gone = Edit(id="gone", annotation=made.annotation, image=1, base=1, cap=None)
+    derived = derive_edits(crowded, [made, gone, accepted(beside)])
+    commit(crowded, derived, user="Ada")
+    caps = contents_of(crowded)
+    assert f"prediction {front.id}" not in caps.visible
+    (after,) = derive_edits(crowded, [new_cap(1, uid="again", visible=beside.visible, prediction=beside.id)])
+    assert derived[2].fit.centre != beside.centre
+    assert after.fit.centre == derived[2].fit.centre

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fairyring.app.protocol import (
-    Fit,
+    Fitted,
     Refit,
     Show,
 )
@@ -23,10 +23,10 @@ def test_a_refit_answers_with_the_centre_of_the_outline_it_was_asked_about(port:
     with Tab(port, image=2) as tab:
         tab.expect(Show)
         tab.send(refit_request(7, 50.0))
-        fit = tab.expect(Fit)
-        assert (fit.seq, fit.annotation) == (7, "cap-1")
-        assert fit.centre == pytest.approx((50.0, 40.0), abs=0.2)
-        assert fit.note
+        answer = tab.expect(Fitted)
+        assert (answer.seq, answer.annotation) == (7, "cap-1")
+        assert answer.fit.centre == pytest.approx((50.0, 40.0), abs=0.2)
+        assert answer.note
 
 
 def test_of_many_refits_the_latest_wins_and_most_are_never_computed(port: int) -> None:
@@ -36,15 +36,15 @@ def test_of_many_refits_the_latest_wins_and_most_are_never_computed(port: int) -
             tab.send(refit_request(seq, 40.0 + seq / 10))
         answers = []
         while not answers or answers[-1].seq != 100:
-            answers.append(tab.expect(Fit))
-        assert answers[-1].centre == pytest.approx((50.0, 40.0), abs=0.2)
+            answers.append(tab.expect(Fitted))
+        assert answers[-1].fit.centre == pytest.approx((50.0, 40.0), abs=0.2)
         assert [fit.seq for fit in answers] == sorted(fit.seq for fit in answers)
         assert len(answers) < 100
-        assert tab.nothing_more(Fit)
+        assert tab.nothing_more(Fitted)
 
 
 def test_a_refit_of_an_image_no_longer_shown_is_dropped(port: int) -> None:
     with Tab(port, image=1) as tab:
         tab.expect(Show)
         tab.send(refit_request(1, 30.0))
-        assert tab.nothing_more(Fit)
+        assert tab.nothing_more(Fitted)

@@ -7,7 +7,6 @@ from html.parser import HTMLParser
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fairyring.app.caps.whole_outlines import Whole
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.panels import images, jobs, review, status
@@ -84,7 +83,7 @@ FIGURES = Comparison(
 def session() -> Session:
     nobody = object()
     opened = Session(client=nobody, beacon=nobody, token=None, user=EVIL)
-    opened.contents = ImageContents(image=IMAGE, annotations=[ANNOTATION], predictions=[PREDICTION], run=RUN)
+    opened.show(ImageContents(image=IMAGE, annotations=[ANNOTATION], predictions=[PREDICTION], run=RUN))
     return opened
 
 
@@ -97,7 +96,7 @@ def every_panel() -> dict[str, str]:
         entries=[entry],
         prediction=PREDICTION,
         run=RUN,
-        whole=Whole(None, EVIL),
+        note=EVIL,
         pair=Pair(truth=0, prediction=0, iou=1.0, error=None),
     )
     row = ImageRow(image=IMAGE, caps=1, ignored=0, predicted=1, cdr_mean=0.1, cdr_worst=0.2, worst=EVIL)
@@ -109,7 +108,7 @@ def every_panel() -> dict[str, str]:
         "images": images.image_list(ImagePage(rows=[row], total=1), 0, 1).html,
         "annotation": cap.annotation_facts(ANNOTATION, background).html,
         "prediction": cap.prediction_facts(PREDICTION, RUN).html,
-        "summary": cap.summary(session()).html,
+        "summary": cap.summary(session().caps).html,
         "review": review.review_page(reviewed, 0, 1).html,
         "jobs": jobs.job_list([told, running]).html,
     }

@@ -25,7 +25,7 @@ def circle(x: float, y: float, r: float) -> Outlines:
     return Outlines(np.array([[x, y]]), np.log([r]), np.zeros((1, 8)))
 
 
-def fitted(given: Evidence, start: Outlines) -> harmonic.Fit:
+def fitted(given: Evidence, start: Outlines) -> harmonic.Estimate:
     return fit_outlines(given, start, DEFAULT, softness=(3, 2, 1, 1, 1, 1))
 
 

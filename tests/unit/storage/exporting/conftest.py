@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, fit_of_shape
 from fairyring.storage.images import set_status
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap
@@ -21,7 +21,7 @@ def mixed(beds):
     def predict(connection, name, images):
         run = add_run(connection, name=name, kind="simulated")
         for image in images:
-            new = [NewPrediction(visible=[TRIANGLE], score=0.5, whole=Circle(50, 46, 9), centre=(50.0, 46.0))]
+            new = [NewPrediction(visible=[TRIANGLE], score=0.5, fit=fit_of_shape(Circle(50, 46, 9)))]
             add_predictions(connection, run_id=run.id, image_id=image, predictions=new)
 
     store(beds, Cap(visible=[SQUARE]))

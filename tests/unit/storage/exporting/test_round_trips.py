@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, fit_of_shape
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_writing import annotation_entry
@@ -77,7 +77,7 @@ def test_the_true_whole_outline_of_a_file_is_kept_until_the_cap_is_edited(beds, 
     (annotation,) = export(beds, out)["annotations"]
     assert annotation["amodal_segmentation"] == true
     edit = Edit(id="e", annotation=annotation["uid"], image=1, base=1, cap=Cap(visible=[SQUARE]))
-    commit(beds, [Derived(edit=edit, whole=Circle(20, 20, 14), centre=(20.0, 20.0))], user="ann")
+    commit(beds, [Derived(edit=edit, fit=fit_of_shape(Circle(20, 20, 14)))], user="ann")
     (edited,) = export(beds, tmp_path / "again")["annotations"]
     assert edited["amodal_segmentation"] != true
     assert edited["circle"] == [20, 20, 14]

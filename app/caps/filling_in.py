@@ -1,0 +1,84 @@
+"""Whole outlines that are missing in the store, worked out image by image: after imports, before exports."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence, Sized
+from typing import TypeVar
+
+from msgspec.structs import replace
+from sqlalchemy import Connection
+
+from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.image_caps import caps_of
+from fairyring.app.caps.whole_outlines import fit_of_mark
+from fairyring.model.geometry.shapes import Fit
+from fairyring.model.progress import Progress, silent
+from fairyring.storage import derived
+from fairyring.storage.contents import load_contents, load_predictions
+from fairyring.storage.images import keep_figures
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image, Outline
+
+Key = TypeVar("Key")
+MOSTLY_NEW = 0.5
+"""The figures of an image are measured anew where more than this share of its caps is fitted."""
+
+
+def fill_in(project: Project, image_ids: Sequence[int] | None = None, *, progress: Progress = silent) -> int:
+    """Works out every whole outline and centre that is missing; returns how many were stored.
+
+    ``image_ids`` None means the whole project. Each image is stored by itself, so that a later call goes on
+    where this one was stopped.
+    """
+    if image_ids is None:
+        with project.read() as connection:
+            image_ids = derived.images_with_underived(connection)
+    stored = 0
+    for done, image_id in enumerate(image_ids):
+        progress(done, len(image_ids), "Finding whole outlines and centres")
+        stored += _fill_in_image(project, image_id)
+    return stored
+
+
+def _fill_in_image(project: Project, image_id: int) -> int:
+    with project.read() as connection:
+        lacking = derived.underived_of(connection, image_id)
+        contents = load_contents(connection, image_id)
+        said = {p.id: p.visible for p in load_predictions(connection, image_id)}
+    image, caps = contents.image, caps_of(contents)
+    unmarked = [uid for uid in lacking.annotations if caps.annotations[uid].cap.mark is None]
+    # What a run says is fitted by itself: what people correct is not the run's doing.
+    of_run = _fitting(image, lacking.predictions, said)
+    predictions = _fits(of_run, said, lacking.predictions)
+    if predictions:
+        image = replace(image, figures=of_run.figures)
+    of_all = _fitting(image, unmarked if contents.run is None else (), caps.visible)
+    annotations = _fits(of_all, caps.visible, unmarked)
+    if annotations:
+        image = replace(image, figures=of_all.figures)
+    marks = {uid: mark for uid in lacking.annotations if (mark := caps.annotations[uid].cap.mark) is not None}
+    annotations |= {uid: fit_of_mark(mark).fit for uid, mark in marks.items()}
+
+    def store(connection: Connection) -> int:
+        if image.figures is not None:
+            keep_figures(connection, image_id, image.figures)
+        return derived.store_derived(
+            connection,
+            image_id,
+            annotations={(uid, caps.annotations[uid].revision): fit for uid, fit in annotations.items()},
+            predictions=predictions,
+        )
+
+    return project.write(store)
+
+
+def _fitting(image: Image, lacking: Sized, visible: Sized) -> Fitting:
+    """By figures measured on what is visible, where most of that is new; else by those that are known."""
+    return Fitting(image, None if len(lacking) > MOSTLY_NEW * len(visible) else known_figures(image))
+
+
+def _fits(fitting: Fitting, visible: Mapping[Key, Outline], wanted: Sequence[Key]) -> dict[Key, Fit]:
+    if not wanted:
+        return {}
+    found = fitting.reconstructions([visible[key] for key in wanted], visible=visible.values())
+    return {key: each.fit for key, each in zip(wanted, found, strict=True)}

@@ -1,0 +1,64 @@
+"""The fitted image behind an open photo or a command: kept up to date as its outlines change."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from contextlib import suppress
+from dataclasses import asdict
+from threading import Lock
+
+import msgspec
+
+from fairyring.model.contour.figures import Figures, usual_figures
+from fairyring.model.contour.fitted_image import fitted_image
+from fairyring.model.contour.priors import DEFAULT
+from fairyring.model.contour.result import Reconstruction
+from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
+from fairyring.storage.records import Image, Outline
+
+MOST_SPARE = 200
+"""Silhouettes kept of outlines that are no longer there: a drag makes many, and may go back."""
+
+
+class Fitting:
+    """Reconstructs the caps of one image, and remembers what the next question will need again.
+
+    Outlines are never changed in place: the same list is the same outline. Several threads may ask.
+    """
+
+    def __init__(self, image: Image, figures: Figures | None) -> None:
+        """By these figures, or by those of the outlines that are visible when it is first asked."""
+        self._image = image
+        self._silhouettes: dict[int, tuple[Outline, Silhouette]] = {}
+        self._latest = fitted_image([], width=image.width, height=image.height, figures=figures)
+        self._lock = Lock()
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """By which it fits, to be kept as ``image.figures``."""
+        return asdict(self._latest.figures)
+
+    def reconstructions(
+        self, wanted: Sequence[Outline], *, visible: Collection[Outline]
+    ) -> list[Reconstruction]:
+        """What is known of some outlines among all those ``visible`` in the image; they are checked ones."""
+        with self._lock:
+            caps = {id(outline): self._silhouette(outline) for outline in visible}
+            self._latest = self._latest.with_caps(caps.values())
+            if len(self._silhouettes) > len(caps) + MOST_SPARE:
+                self._silhouettes = {key: self._silhouettes[key] for key in caps}
+            return self._latest.reconstructions([self._silhouette(outline) for outline in wanted])
+
+    def _silhouette(self, outline: Outline) -> Silhouette:
+        known = self._silhouettes.get(id(outline))
+        if known is None:
+            size = {"width": self._image.width, "height": self._image.height}
+            known = self._silhouettes[id(outline)] = outline, silhouette_of_outline(outline, **size)
+        return known[1]
+
+
+def known_figures(image: Image) -> Figures:
+    """What was measured on an image; what is usual where nothing was, or by another version."""
+    with suppress(msgspec.ValidationError):
+        return msgspec.convert(image.figures, Figures)
+    return usual_figures(DEFAULT)

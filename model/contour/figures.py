@@ -1,0 +1,61 @@
+"""What is measured on all caps of an image: how noisy its masks are, and how far from round its caps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import fsum, sqrt
+
+from fairyring.model.contour.contact import Contact
+from fairyring.model.contour.harmonic import Array, Estimate
+from fairyring.model.contour.noise import deviation, expected_power, power
+from fairyring.model.contour.priors import Priors
+from fairyring.model.contour.rims import Rims
+
+USUAL_NOISE = 0.5
+"""Taken for the standard deviation of a rim point until it is measured, pixels."""
+USUAL_CAPS = 4
+"""How many caps the usual stretch weighs as much as."""
+SHARP_STRETCH = 0.02
+"""A cap's stretch is known well if its standard deviation is less than this."""
+WIDEST_STRETCH = 0.3
+"""A cap counts as no more stretched than this: it may be mislabelled."""
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """Of an image."""
+
+    noise: float
+    """Standard deviation of a rim point, pixels."""
+    power: float
+    """Of the noise along a rim, px³."""
+    stretch: float
+    """Standard deviation of each of the two components of a cap's stretch."""
+
+
+def usual_figures(priors: Priors) -> Figures:
+    """What is expected of an image before its own figures are known."""
+    return Figures(USUAL_NOISE, expected_power(USUAL_NOISE, priors), priors.stretch)
+
+
+def measured_figures(rims: Rims, contact: Contact, estimate: Estimate, own: Array, priors: Priors) -> Figures:
+    """The figures of an image of n ≥ 1 caps, the same in whatever order these come.
+
+    ``own`` (n, K) is how probable it is that a rim point lies on the cap's own rim.
+    """
+    noise = deviation(estimate, contact, priors)
+    return Figures(
+        noise=noise,
+        power=power(rims, estimate, own, priors, noise=noise),
+        stretch=_stretch(estimate, priors),
+    )
+
+
+def _stretch(estimate: Estimate, priors: Priors) -> float:
+    """How far from round the caps are, judged by those of which it is known, and by what is usual."""
+    variance = (estimate.covariance[:, 3, 3] + estimate.covariance[:, 4, 4]) / 2
+    trust = 1 / (1 + variance / SHARP_STRETCH**2)
+    square = (estimate.outlines.shape[:, :2] ** 2).sum(axis=1) / 2 + variance
+    # Sums without rounding, for they must not depend on the order.
+    weighted = fsum((trust * square.clip(max=WIDEST_STRETCH**2)).tolist()) + USUAL_CAPS * priors.stretch**2
+    return sqrt(weighted / (fsum(trust.tolist()) + USUAL_CAPS))

@@ -1,0 +1,125 @@
+"""Where the caps of an image lie, and who touches whom; kept up to date as caps come and go."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import compress
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairyring.model.contour.batch import joined, single_caps
+from fairyring.model.contour.contact import ELSEWHERE, NOBODY, REACH, Contact, contact_of
+from fairyring.model.contour.rims import Rims, rims_of
+from fairyring.model.contour.silhouette import Silhouette
+
+NEAR = REACH[-1] + 2
+"""Silhouettes whose boxes are further apart than this do not touch, pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """What one cap touches."""
+
+    contact: Contact
+    """Of this one cap; neighbours by their place in ``others``."""
+    others: Mapping[Silhouette, int]
+    """The caps it touches, in the order of their places."""
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The caps of an image, each with something to see."""
+
+    width: int
+    height: int
+    caps: Sequence[Silhouette]
+    """All different."""
+    boxes: NDArray[np.int_]
+    """(n, 4), left, top, right, bottom."""
+    rims: Mapping[Silhouette, Rims]
+    """Of every cap by itself."""
+    touches: Mapping[Silhouette, Touch]
+
+    def near(self, *caps: Silhouette) -> list[Silhouette]:
+        """The caps that might touch any of these, of which there is one or more; these among them."""
+        left, top = np.min([cap.box[:2] for cap in caps], axis=0)
+        right, bottom = np.max([cap.box[2:] for cap in caps], axis=0)
+        x0, y0, x1, y1 = self.boxes.T
+        touching = (x0 <= right + NEAR) & (x1 >= left - NEAR) & (y0 <= bottom + NEAR) & (y1 >= top - NEAR)
+        return [self.caps[at] for at in np.flatnonzero(touching).tolist()]
+
+    def neighbours(self, cap: Silhouette) -> set[Silhouette]:
+        """The caps whose borders with this one are decided on together with its own."""
+        touching = {other for other in self.near(cap) if cap in self.touches[other].others}
+        return touching.union(self.touches[cap].others)
+
+    def batch(self, caps: Sequence[Silhouette]) -> tuple[Rims, Contact]:
+        """The rims of these n ≥ 1 caps, and their contact with each other, neighbours by place among them."""
+        place = {cap: at for at, cap in enumerate(caps)}
+        contacts = [_placed(self.touches[cap], place) for cap in caps]
+        return joined([self.rims[cap] for cap in caps]), joined(contacts)
+
+
+def empty_layout(*, width: int, height: int) -> Layout:
+    """Of an image of this size without caps."""
+    return Layout(width, height, (), np.zeros((0, 4), np.int64), {}, {})
+
+
+def changed_layout(
+    layout: Layout, *, added: Sequence[Silhouette], removed: Iterable[Silhouette]
+) -> tuple[Layout, set[Silhouette]]:
+    """The layout with some caps more and others less, and the caps of it that touch something else now.
+
+    ``removed`` must be in the layout, ``added`` not, and hold n ≥ 0 different caps with something to see.
+    """
+    gone = set(removed)
+    stay = [cap not in gone for cap in layout.caps]
+    caps = [*compress(layout.caps, stay), *added]
+    boxes = np.array([cap.box for cap in added], np.int64).reshape(-1, 4)
+    rims, touches = dict(layout.rims), dict(layout.touches)
+    for cap in gone:
+        del rims[cap], touches[cap]
+    if added:
+        rims |= zip(added, single_caps(rims_of(added), caps=len(added)), strict=True)
+    new = replace(layout, caps=caps, boxes=np.concatenate([layout.boxes[stay], boxes]), rims=rims)
+    around = {cap for change in (*added, *gone) for cap in new.near(change)}
+    fresh = _touches(new, list(around)) if around else {}
+    differ = {cap for cap, touch in fresh.items() if not _same(touch, layout.touches.get(cap))}
+    return replace(new, touches=touches | fresh), differ
+
+
+def _touches(layout: Layout, caps: Sequence[Silhouette]) -> dict[Silhouette, Touch]:
+    in_sight = [*caps, *set(layout.near(*caps)).difference(caps)]
+    rims = joined([layout.rims[cap] for cap in caps])
+    contact = contact_of(rims, in_sight, width=layout.width, height=layout.height)
+    contacts = single_caps(contact, caps=len(caps))
+    return {cap: _touch(one, in_sight) for cap, one in zip(caps, contacts, strict=True)}
+
+
+def _touch(contact: Contact, in_sight: Sequence[Silhouette]) -> Touch:
+    places = sorted({place for place in contact.neighbour.ravel().tolist() if place >= 0})
+    if not places:
+        return Touch(contact, {})
+    codes = np.full(len(in_sight) + 1, NOBODY)
+    codes[places] = np.arange(len(places))
+    others = {in_sight[place]: code for code, place in enumerate(places)}
+    return Touch(Contact(codes[contact.neighbour], contact.border), others)
+
+
+def _placed(touch: Touch, place: Mapping[Silhouette, int]) -> Contact:
+    """The contact with neighbours named by their place, those without one as `ELSEWHERE`."""
+    if not touch.others:
+        return touch.contact
+    places = np.array([*(place.get(other, ELSEWHERE) for other in touch.others), NOBODY])
+    return Contact(places[touch.contact.neighbour], touch.contact.border)
+
+
+def _same(touch: Touch, before: Touch | None) -> bool:
+    """Whether every point touches what it touched before."""
+    if before is None:
+        return False
+    who, who_before = (np.array([*each.others, None], object) for each in (touch, before))
+    now, then = who[touch.contact.neighbour], who_before[before.contact.neighbour]
+    return bool((now == then).all() and (touch.contact.border == before.contact.border).all())
