@@ -7,21 +7,25 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from itertools import compress
+from typing import TypeVar
 
 import anyio.to_thread
 
-from fairyring.app.caps.image_caps import ImageCaps, covered_by
-from fairyring.app.caps.nearby import keys_near
+from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.model.evaluate import centres
 from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.geometry.boxes import boxes_of_outlines, touching
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import diameter_of_shape
 from fairyring.storage.comparisons import Comparison, store_comparison
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_version
+from fairyring.storage.open_predictions import covered_by
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.records import Annotation, Image, Outline, Prediction
 
+Key = TypeVar("Key")
 log = logging.getLogger(__name__)
 
 QUIET_S = 1.0
@@ -44,10 +48,16 @@ def compare_cap(caps: ImageCaps, uid: str) -> centres.Pair | None:
     """
     covered = {key: covered_by(a) for key, a in caps.annotations.items() if not a.deleted}
     guesses = {p.id: p for p in caps.predictions}
-    near = keys_near(covered[uid], covered, boxes=caps.boxes)
-    around = keys_near(covered[uid], {key: p.visible for key, p in guesses.items()}, boxes=caps.boxes)
+    near = _near(covered[uid], covered)
+    around = _near(covered[uid], {key: p.visible for key, p in guesses.items()})
     found = compare(caps.image, [caps.annotations[key] for key in near], [guesses[key] for key in around])
     return next((pair for pair in found.pairs if near[pair.truth] == uid), None)
+
+
+def _near(outline: Outline, others: Mapping[Key, Outline]) -> list[Key]:
+    """The keys of the other outlines whose boxes touch that of ``outline``."""
+    (near,) = touching(boxes_of_outlines([outline]), boxes_of_outlines(list(others.values())))
+    return list(compress(others, near))
 
 
 def compare_image(project: Project, image_id: int) -> Comparison | None:

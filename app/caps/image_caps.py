@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from fairyring.app.caps.fitting import Fitting, known_figures
-from fairyring.app.caps.nearby import Boxes
-from fairyring.model.geometry.shapes import polygon_of_shape
 from fairyring.storage.records import Annotation, Image, ImageContents, Outline, Prediction
 
 
@@ -22,7 +20,6 @@ class ImageCaps:
     predictions: Sequence[Prediction]
     fitting: Fitting
     """The same for one image after another, as its caps change."""
-    boxes: Boxes = field(default_factory=Boxes)
 
     @cached_property
     def visible(self) -> dict[str, Outline]:
@@ -54,10 +51,3 @@ def caps_of(contents: ImageContents) -> ImageCaps:
 def key_of(prediction: int | None) -> str:
     """The name of a prediction among outlines; no uid looks like it."""
     return f"prediction {prediction}"
-
-
-def covered_by(annotation: Annotation) -> Outline:
-    """What a cap covers: what is visible of it, else all of a mark placed without an outline."""
-    if annotation.cap.visible or annotation.whole is None:
-        return annotation.cap.visible
-    return [polygon_of_shape(annotation.whole)]

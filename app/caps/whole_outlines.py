@@ -16,7 +16,7 @@ from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.contour.result import Reconstruction
-from fairyring.model.geometry.outline_checks import check_mark, check_outline
+from fairyring.model.geometry.outline_checks import check_mark, check_outline, usable_outline
 from fairyring.model.geometry.shapes import Circle, Fit, GeometryError, Polygon, fit_of_shape
 from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
@@ -145,20 +145,14 @@ def _fits_of_edits(edits: Sequence[Edit], caps: ImageCaps) -> dict[str, Fit]:
 def _edited(caps: ImageCaps, edits: Sequence[Edit]) -> dict[str, Annotation]:
     """The annotations once these edits are accepted; of outlines that cannot be used nothing is visible."""
     annotations = dict(caps.annotations)
+    size = {"width": caps.image.width, "height": caps.image.height}
     for edit in edits:
         known = annotations.get(edit.annotation)
         if edit.cap is not None:
-            cap = msgspec.structs.replace(edit.cap, visible=_usable(edit.cap.visible, caps.image))
+            cap = msgspec.structs.replace(edit.cap, visible=usable_outline(edit.cap.visible, **size))
             annotations[edit.annotation] = Annotation(
                 uid=edit.annotation, image=edit.image, revision=edit.base, cap=cap
             )
         elif known is not None:
             annotations[edit.annotation] = msgspec.structs.replace(known, deleted=True)
     return annotations
-
-
-def _usable(visible: Outline, image: Image) -> Outline:
-    try:
-        return check_outline(visible, width=image.width, height=image.height)
-    except GeometryError:
-        return []

@@ -18,8 +18,8 @@ from fairyring.app.caps.fitting import Fitting
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.outline_checks import check_outline
-from fairyring.model.geometry.shapes import Fit, GeometryError, Outline
+from fairyring.model.geometry.outline_checks import usable_outline
+from fairyring.model.geometry.shapes import Fit, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import PredictConfig, Predictor
@@ -169,7 +169,7 @@ def _predictions_of(
     found = [
         (detection.score, outline)
         for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
-        if (outline := _usable(detection.outline, image)) is not None
+        if (outline := usable_outline(detection.outline, width=image.width, height=image.height))
     ]
     outlines = [outline for _, outline in found]
     fitting = Fitting(image, None)
@@ -179,13 +179,6 @@ def _predictions_of(
         for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
     ]
     return new, fitting.figures
-
-
-def _usable(outline: Outline, image: Image) -> Outline | None:
-    try:
-        return check_outline(outline, width=image.width, height=image.height)
-    except GeometryError:
-        return None
 
 
 def _prediction(nth: int, score: float, outline: Outline, fit: Fit) -> NewPrediction:

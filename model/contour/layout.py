@@ -13,6 +13,7 @@ from fairyring.model.contour.batch import joined, single_caps
 from fairyring.model.contour.contact import ELSEWHERE, NOBODY, REACH, Contact, contact_of
 from fairyring.model.contour.rims import Rims, rims_of
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.geometry.boxes import touching
 
 NEAR = REACH[-1] + 2
 """Silhouettes whose boxes are further apart than this do not touch, pixels."""
@@ -46,14 +47,13 @@ class Layout:
         """The caps that might touch any of these, of which there is one or more; these among them."""
         left, top = np.min([cap.box[:2] for cap in caps], axis=0)
         right, bottom = np.max([cap.box[2:] for cap in caps], axis=0)
-        x0, y0, x1, y1 = self.boxes.T
-        touching = (x0 <= right + NEAR) & (x1 >= left - NEAR) & (y0 <= bottom + NEAR) & (y1 >= top - NEAR)
-        return [self.caps[at] for at in np.flatnonzero(touching).tolist()]
+        around = np.array([[left - NEAR, top - NEAR, right + NEAR, bottom + NEAR]])
+        return [self.caps[at] for at in np.flatnonzero(touching(around, self.boxes)).tolist()]
 
     def neighbours(self, cap: Silhouette) -> set[Silhouette]:
         """The caps whose borders with this one are decided on together with its own."""
-        touching = {other for other in self.near(cap) if cap in self.touches[other].others}
-        return touching.union(self.touches[cap].others)
+        touched_by = {other for other in self.near(cap) if cap in self.touches[other].others}
+        return touched_by.union(self.touches[cap].others)
 
     def batch(self, caps: Sequence[Silhouette]) -> tuple[Rims, Contact]:
         """The rims of these n ≥ 1 caps, and their contact with each other, neighbours by place among them."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ def boxes_of_outlines(outlines: Sequence[Outline]) -> NDArray[np.float64]:
     return np.array([box_of_outline(outline) for outline in outlines]).reshape(-1, 4)
 
 
-def touching(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.bool_]:
+def touching(first: NDArray[Any], second: NDArray[Any]) -> NDArray[np.bool_]:
     """(n, m), whether each of n boxes (n, 4) meets each of m (m, 4); sharing an edge counts."""
     left, top, right, bottom = first[:, :, None].transpose(1, 0, 2)
     to_left, to_top, to_right, to_bottom = second.T

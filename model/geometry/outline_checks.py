@@ -95,6 +95,14 @@ def check_outline(
     return checked
 
 
+def usable_outline(outline: Any, *, width: int, height: int) -> Outline:
+    """As ``check_outline``; an outline that cannot be used becomes one without parts."""
+    try:
+        return check_outline(outline, width=width, height=height)
+    except GeometryError:
+        return []
+
+
 def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
     """The mark, a polygon without repeated vertices; GeometryError where it makes no sense in the image."""
     if isinstance(mark, Polygon):

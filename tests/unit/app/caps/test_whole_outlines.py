@@ -11,7 +11,6 @@ import pytest
 from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.caps.fitting import Fitting, known_figures
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
-from fairyring.app.caps.nearby import Boxes, box_of, keys_near
 from fairyring.app.caps.whole_outlines import derive_edits, note_of, reconstruction_of, refit
 from fairyring.app.protocol import Refit
 from fairyring.model.geometry.shapes import Circle, Ellipse, Outline, Polygon, diameter_of_shape
@@ -71,15 +70,6 @@ def test_a_wild_mark_gives_a_sentence(mark: Circle | Polygon) -> None:
     fit = reconstruction_of("a", Cap(visible=SQUARE, mark=mark), image_with()).fit
     assert fit.whole is None
     assert fit.refusal is not None
-
-
-def test_neighbours_are_those_whose_boxes_touch() -> None:
-    boxes = Boxes()
-    others = {"touching": circle(80, 40, 20), "far": circle(150, 40, 5), "nothing": []}
-    assert keys_near(circle(40, 40, 20), others, boxes=boxes) == ["touching"]
-    assert keys_near(circle(40, 40, 20), others, reach=3.0, boxes=boxes) == ["touching", "far"]
-    assert keys_near([], others, boxes=boxes) == []
-    assert box_of(SQUARE) == (20.0, 20.0, 60.0, 60.0)
 
 
 def test_what_is_visible_leaves_out_predictions_that_somebody_took_up(project: Project) -> None:
