@@ -29,7 +29,7 @@ Key = TypeVar("Key")
 log = logging.getLogger(__name__)
 
 QUIET_S = 1.0
-"""How long an image is left alone after an edit before its figures are computed anew."""
+"""Seconds without an edit after which an image's figures are computed anew."""
 
 
 def compare(
@@ -42,7 +42,7 @@ def compare(
 
 
 def compare_cap(caps: ImageCaps, uid: str) -> centres.Pair | None:
-    """The prediction that belongs to one cap, looked for among what lies near it; None where there is none.
+    """One cap and its matching prediction, found among what lies near it; None where there is none.
 
     The pair's indices mean nothing to the caller.
     """
@@ -88,10 +88,10 @@ class Reviewer:
         self._task: asyncio.Task[None] | None = None
 
     def touch(self, image_id: int) -> None:
-        """An annotation of this image has changed."""
+        """Notes that an annotation of this image has changed."""
         self._waiting[image_id] = asyncio.get_running_loop().time() + self._quiet_s
         if self._task is None:
-            self._task = asyncio.create_task(self._run())
+            self._task = asyncio.create_task(self._compare_waiting())
 
     async def close(self) -> None:
         """Lets the image under way finish and forgets the others; they stay stale in the store."""
@@ -99,7 +99,7 @@ class Reviewer:
         if self._task is not None:
             await asyncio.gather(self._task, return_exceptions=True)
 
-    async def _run(self) -> None:
+    async def _compare_waiting(self) -> None:
         try:
             while self._waiting:
                 image_id, due = min(self._waiting.items(), key=lambda item: item[1])

@@ -1,4 +1,4 @@
-"""Whole outlines that are missing in the store, worked out image by image: after imports, before exports."""
+"""Works out whole outlines that the store lacks, image by image: after imports, before exports."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from fairyring.storage.records import Image, Outline
 
 Key = TypeVar("Key")
 MOSTLY_NEW = 0.5
-"""The figures of an image are measured anew where more than this share of its caps is fitted."""
+"""An image's figures are measured anew where more than this share of its caps is to be fitted."""
 
 
 def fill_in(project: Project, image_ids: Sequence[int] | None = None, *, progress: Progress = silent) -> int:
@@ -73,7 +73,7 @@ def _fill_in_image(project: Project, image_id: int) -> int:
 
 
 def _fitting(image: Image, lacking: Sized, visible: Sized) -> Fitting:
-    """By figures measured on what is visible, where most of that is new; else by those that are known."""
+    """The fitting of an image: by figures measured anew where most caps are new, else by known ones."""
     return Fitting(image, None if len(lacking) > MOSTLY_NEW * len(visible) else known_figures(image))
 
 

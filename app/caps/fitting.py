@@ -1,4 +1,4 @@
-"""The fitted image behind an open photo or a command: kept up to date as its outlines change."""
+"""Keeps the fitted image of an open photo or a command up to date as its outlines change."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
-"""Silhouettes kept of outlines that are no longer there: a drag makes many, and may go back."""
+"""How many silhouettes of former outlines are kept: a drag makes many, and may go back."""
 
 
 class Fitting:
@@ -27,7 +27,7 @@ class Fitting:
     """
 
     def __init__(self, image: Image, figures: Figures | None) -> None:
-        """By these figures, or by those of the outlines that are visible when it is first asked."""
+        """Fits by these figures; None measures them on the outlines that are first visible."""
         self._image = image
         self._silhouettes: dict[int, tuple[Outline, Silhouette]] = {}
         self._latest = fitted_image([], width=image.width, height=image.height, figures=figures)
@@ -35,13 +35,13 @@ class Fitting:
 
     @property
     def figures(self) -> dict[str, float]:
-        """By which it fits, to be kept as ``image.figures``."""
+        """The figures it fits by, to be kept as ``image.figures``."""
         return asdict(self._latest.figures)
 
     def reconstructions(
         self, wanted: Sequence[Outline], *, visible: Collection[Outline]
     ) -> list[Reconstruction]:
-        """What is known of some outlines among all those ``visible`` in the image; they are checked ones."""
+        """Reconstructs some outlines among all those ``visible`` in the image; all were checked before."""
         with self._lock:
             caps = {id(outline): self._silhouette(outline) for outline in visible}
             self._latest = self._latest.with_caps(caps.values())
@@ -58,7 +58,7 @@ class Fitting:
 
 
 def known_figures(image: Image) -> Figures:
-    """What was measured on an image; what is usual where nothing was, or by another version."""
+    """The figures measured on an image; the usual ones where there are none, or those of another version."""
     with suppress(msgspec.ValidationError):
         return msgspec.convert(image.figures, Figures)
     return usual_figures(DEFAULT)

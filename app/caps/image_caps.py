@@ -1,4 +1,4 @@
-"""An image with its caps, at one moment, as a tab or the store knows it."""
+"""The caps of an image at one moment, as a tab or the store knows them."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from fairyring.storage.records import Annotation, Image, ImageContents, Outline,
 
 @dataclass(frozen=True)
 class ImageCaps:
-    """What a cap is worked out and judged among."""
+    """An image with all its caps, among which each is reconstructed and compared."""
 
     image: Image
     annotations: Mapping[str, Annotation]
-    """By uid; deleted ones may be among them."""
+    """Annotations by uid; deleted ones may be among them."""
     predictions: Sequence[Prediction]
     fitting: Fitting
-    """The same for one image after another, as its caps change."""
+    """Shared by all successive states of an image's caps."""
 
     @cached_property
     def visible(self) -> dict[str, Outline]:
@@ -42,12 +42,12 @@ class ImageCaps:
 
 
 def caps_of(contents: ImageContents) -> ImageCaps:
-    """The caps as the store knows them."""
+    """The caps of an image as the store has them."""
     annotations = {annotation.uid: annotation for annotation in contents.annotations}
     fitting = Fitting(contents.image, known_figures(contents.image))
     return ImageCaps(contents.image, annotations, contents.predictions, fitting)
 
 
 def key_of(prediction: int | None) -> str:
-    """The name of a prediction among outlines; no uid looks like it."""
+    """The key of a prediction among outlines by uid; no uid looks like it."""
     return f"prediction {prediction}"

@@ -25,7 +25,7 @@ from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline
 
 TELLING = 0.005
-"""A stored centre that would move by less than this if its cap were fitted anew is as good as new, pixels."""
+"""A stored centre that a new fit would move by less than this, pixels, is as good as new."""
 
 
 def reconstruction_of(uid: str, cap: Cap, caps: ImageCaps) -> Reconstruction:
@@ -59,7 +59,7 @@ def refit(caps: ImageCaps, request: Refit) -> Fitted:
 
 
 def note_of(found: Reconstruction) -> str:
-    """How a whole outline came about, or why there is none, for a person."""
+    """Says how a whole outline came about, or why there is none."""
     return found.fit.refusal or found.why
 
 
@@ -80,7 +80,7 @@ def derive_edits(project: Project, edits: Sequence[Edit], *, known: ImageCaps | 
 
 
 def fit_of_mark(mark: Mark) -> Reconstruction:
-    """What a checked mark says: it needs no neighbours."""
+    """The whole outline of a checked mark; it needs no neighbours."""
     shape = whole_of_mark(mark)
     if shape is None:
         refusal = "The mark determines no outline; place more points around the cap."
@@ -92,14 +92,14 @@ def fit_of_mark(mark: Mark) -> Reconstruction:
 
 
 def _given(cap: Cap, image: Image) -> Reconstruction | Outline:
-    """What a cap's mark says, else its outline, checked. Raises GeometryError."""
+    """The whole outline of a cap's mark, else its checked visible outline. Raises GeometryError."""
     if cap.mark is not None:
         return fit_of_mark(check_mark(cap.mark, width=image.width, height=image.height))
     return check_outline(cap.visible, width=image.width, height=image.height)
 
 
 def _stored(uid: str, outline: Outline, caps: ImageCaps) -> Fit | None:
-    """What is stored of an annotation whose outline is left as it is: it stands, whatever else is edited."""
+    """The stored fit of an annotation whose outline is unchanged, which it keeps; else None."""
     before = caps.annotations.get(uid)
     if before is None or before.deleted or before.whole is None:
         return None
@@ -109,7 +109,7 @@ def _stored(uid: str, outline: Outline, caps: ImageCaps) -> Fit | None:
 
 
 def _as_stored(found: Reconstruction, stored: Fit) -> Reconstruction:
-    """With what is stored in place of what was found, and a word where they differ."""
+    """The reconstruction with the stored fit in place of its own, and a remark where they differ."""
     fit = msgspec.structs.replace(found.fit, whole=stored.whole, centre=stored.centre, refusal=None)
     if found.fit.centre is None or stored.centre is None:
         return replace(found, fit=fit)
@@ -120,7 +120,7 @@ def _as_stored(found: Reconstruction, stored: Fit) -> Reconstruction:
 
 
 def _fits_of_edits(edits: Sequence[Edit], caps: ImageCaps) -> dict[str, Fit]:
-    """By edit; none for deletions, nor for edits that a later one of the set replaces."""
+    """Fits by edit id; none for deletions, nor for edits that a later one of the set replaces."""
     after = caps.with_annotations(_edited(caps, edits))
     fits: dict[str, Fit] = {}
     wanted: dict[str, Outline] = {}

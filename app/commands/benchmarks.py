@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 
 from fairyring.app.commands import bench_network
-from fairyring.app.commands.contour import MethodName
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.model.contour.method_names import MethodName
 from fairyring.model.errors import FairyringError
 
 commands = typer.Typer(
@@ -112,7 +112,7 @@ def contour(
     if pictures is not None and real is None:
         raise typer.BadParameter("--pictures are of real photos: give their folder with --real.")
     if pictures is not None and real is not None:
-        draw_worst(real, pictures, methods=[each.value for each in method or [MethodName.map]])
+        draw_worst(real, pictures, methods=method or [MethodName.map])
     print_rows("contour", contour_rows(quick=quick, real=real), as_json=as_json)
 
 

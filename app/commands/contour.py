@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -10,19 +9,9 @@ import typer
 
 from fairyring.app.commands.files import named, read_json, write_json
 from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.model.contour.method_names import MethodName
 
 Labels = Annotated[Path, typer.Argument(metavar="COCO.json[.gz]", help="COCO file with checked outlines.")]
-
-
-class MethodName(StrEnum):
-    """Ways to reconstruct a cap."""
-
-    map = "map"
-    paper = "paper"
-    literal = "literal"
-    ellipse = "ellipse"
-    hull = "hull"
-    enclosing = "enclosing"
 
 
 def contour(
@@ -42,7 +31,7 @@ def contour(
     document = read_json(masks)
     chosen = read_priors(priors) if priors else DEFAULT
     with shown_on_stderr() as progress, named(masks):
-        found = contour_document(document, method=method.value, priors=chosen, progress=progress)
+        found = contour_document(document, method=method, priors=chosen, progress=progress)
     refused = sum(annotation["center"] is None for annotation in found["annotations"])
     write_json(found, out)
     typer.echo(f"{len(found['annotations'])} caps in {out}, {refused} of them refused", err=True)

@@ -124,7 +124,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
     session.send(session.layers)
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
-    refits = Refits(workspace, session)
+    refits = Refits(session)
     limit = workspace.settings.message_limit_mb * A_MEGABYTE
     try:
         while True:

@@ -1,4 +1,4 @@
-"""Edits on their way from a tab to the disk and to the other tabs, and refits while a cap is dragged."""
+"""Passes edits on from a tab to the disk and to the other tabs, and answers refits while a cap is dragged."""
 
 from __future__ import annotations
 
@@ -45,25 +45,24 @@ def _store(workspace: Workspace, edits: Sequence[Edit], known: ImageCaps | None,
 
 
 class Refits:
-    """The refits of one tab: one at a time, and of those that wait only the latest."""
+    """Answers the refits of one tab: one at a time, and of those that wait only the latest."""
 
-    def __init__(self, workspace: Workspace, session: Session) -> None:
-        self._workspace = workspace
+    def __init__(self, session: Session) -> None:
         self._session = session
         self._latest: Refit | None = None
         self._task: asyncio.Task[None] | None = None
 
     def ask(self, request: Refit) -> None:
-        """Takes the place of a request that has not been begun."""
+        """Asks for a refit, in place of one that has not been begun."""
         self._latest = request
         if self._task is None:
-            self._task = asyncio.create_task(self._run())
+            self._task = asyncio.create_task(self._answer())
 
     def close(self) -> None:
-        """Begins no more."""
+        """Drops the request that waits."""
         self._latest = None
 
-    async def _run(self) -> None:
+    async def _answer(self) -> None:
         try:
             while (request := self._latest) is not None:
                 self._latest = None

@@ -35,9 +35,9 @@ class Limits:
     kind: Literal["relative", "printed"] = "relative"
     """Printed are 46/10, 69/30 and 89/40 px of chord or depth by length; by them no cap is ever irregular."""
     least_depth: float = 2.0
-    """Pixels."""
+    """Least depth of a defect that counts, pixels."""
     share: float = 0.05
-    """Of the diameter of the circle of the same area; 0.08 suits masks that are noisy by 2 px."""
+    """Least depth as a share of the diameter of the circle of equal area; 0.08 suits masks noisy by 2 px."""
 
     def ignore(self, defect: Defect, *, length: int, area: float) -> bool:
         """Whether a contour of ``length`` pixels around an ``area`` (px²) is regular in spite of it."""

@@ -15,7 +15,7 @@ REACH = (1.5, 3.0, 4.5)
 """How far outside a rim to look for a neighbour, the nearest first, pixels: outlines of masks leave gaps."""
 
 NOBODY, ELSEWHERE = -1, -2
-"""No neighbour; one that is not among the caps at hand."""
+"""Codes for no neighbour, and for one that is not among the caps given."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from fairyring.model.contour.priors import Priors
 from fairyring.model.contour.rims import Rims
 
 USUAL_NOISE = 0.5
-"""Taken for the standard deviation of a rim point until it is measured, pixels."""
+"""Standard deviation of a rim point before it is measured, pixels."""
 USUAL_CAPS = 4
 """How many caps the usual stretch weighs as much as."""
 SHARP_STRETCH = 0.02
@@ -23,12 +23,12 @@ WIDEST_STRETCH = 0.3
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """Of an image."""
+    """The figures of an image."""
 
     noise: float
     """Standard deviation of a rim point, pixels."""
     power: float
-    """Of the noise along a rim, px³."""
+    """Power of the noise along a rim, px³."""
     stretch: float
     """Standard deviation of each of the two components of a cap's stretch."""
 

@@ -24,9 +24,9 @@ class Touch:
     """What one cap touches."""
 
     contact: Contact
-    """Of this one cap; neighbours by their place in ``others``."""
+    """Contact of this one cap; neighbours by their number in ``others``."""
     others: Mapping[Silhouette, int]
-    """The caps it touches, in the order of their places."""
+    """The caps it touches, with their numbers, in order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +36,11 @@ class Layout:
     width: int
     height: int
     caps: Sequence[Silhouette]
-    """All different."""
+    """The caps, all different."""
     boxes: NDArray[np.int_]
     """(n, 4), left, top, right, bottom."""
     rims: Mapping[Silhouette, Rims]
-    """Of every cap by itself."""
+    """The rim of every cap."""
     touches: Mapping[Silhouette, Touch]
 
     def near(self, *caps: Silhouette) -> list[Silhouette]:
@@ -63,7 +63,7 @@ class Layout:
 
 
 def empty_layout(*, width: int, height: int) -> Layout:
-    """Of an image of this size without caps."""
+    """The layout of an image of this size without caps."""
     return Layout(width, height, (), np.zeros((0, 4), np.int64), {}, {})
 
 

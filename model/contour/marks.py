@@ -1,4 +1,4 @@
-"""From what a person placed to a whole outline (section 6.3.1)."""
+"""The whole outline of a mark that a person placed (section 6.3.1)."""
 
 from __future__ import annotations
 

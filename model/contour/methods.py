@@ -9,6 +9,7 @@ from math import dist
 from fairyring.model.contour.circle import enclosing_circle
 from fairyring.model.contour.ellipse import grown, hull_ellipse, least_squares_ellipse
 from fairyring.model.contour.fitted_image import fitted_image
+from fairyring.model.contour.method_names import MethodName
 from fairyring.model.contour.paper import LITERAL, PAPER, Reading, reconstruct_contour
 from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.result import Reconstruction, ShapeKind
@@ -36,7 +37,7 @@ def by_map(image: MaskedImage) -> list[Reconstruction]:
 
 
 def by_reading(reading: Reading) -> Method:
-    """The paper's method, read so."""
+    """The paper's method in this reading."""
 
     def fit(contour: Points, area: float) -> Reconstruction:
         steps = reconstruct_contour(contour, area=area, reading=reading)
@@ -80,11 +81,11 @@ def _found(whole: Circle | Ellipse, *, shape: ShapeKind = "regular", why: str) -
 
 
 METHODS: dict[str, Method] = {
-    "map": by_map,
-    "paper": by_reading(PAPER),
-    "literal": by_reading(LITERAL),
-    "ellipse": _one_by_one(_by_ellipse),
-    "hull": _one_by_one(_by_hull),
-    "enclosing": _one_by_one(_by_enclosing_circle),
+    MethodName.map: by_map,
+    MethodName.paper: by_reading(PAPER),
+    MethodName.literal: by_reading(LITERAL),
+    MethodName.ellipse: _one_by_one(_by_ellipse),
+    MethodName.hull: _one_by_one(_by_hull),
+    MethodName.enclosing: _one_by_one(_by_enclosing_circle),
 }
-DEFAULT_METHOD = "map"
+DEFAULT_METHOD = MethodName.map

@@ -1,4 +1,4 @@
-"""The paper's reconstruction (section 5), one cap at a time, with every reading of it a parameter."""
+"""The paper's reconstruction (section 5), one cap at a time; `Reading` holds its open choices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known of caps before one is looked at, with where it is known from."""
+"""What is known of caps before one is looked at, and where that is known from."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ class Priors(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     source: str
     """Where the figures come from."""
     stretch: float
-    """Of each of the two components (u, v) of the ellipse r·expm([[u, v], [v, −u]])."""
+    """Width of each of the two components (u, v) of the ellipse r·expm([[u, v], [v, −u]])."""
     stretch_hidden: float = 1.7
     """How much wider that is for caps partly hidden: tilted caps lean under others."""
     wobble: tuple[float, ...]
-    """Of each component of the third harmonic of the outline, the fourth, …"""
+    """Width of each component of the third harmonic of the outline, the fourth, …"""
     size: float
-    """Of log(radius / radius of the circle around what is visible)."""
+    """Width of log(radius / radius of the circle around what is visible)."""
     size_shift: float = 0.0
-    """Mean of the same."""
+    """Mean of log(radius / radius of the circle around what is visible)."""
     noise: float = 0.3
     """Standard deviation of a rim point, pixels; leant on where an image shows too little rim."""
     noise_floor: float = 0.2
@@ -62,5 +62,5 @@ def read_priors(path: Path) -> Priors:
 
 
 def write_priors(priors: Priors, path: Path) -> None:
-    """As JSON, one figure a line."""
+    """Writes priors as JSON, one figure a line."""
     path.write_bytes(msgspec.json.format(msgspec.json.encode(priors), indent=2) + b"\n")

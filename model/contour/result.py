@@ -1,4 +1,4 @@
-"""What a reconstruction says of a cap."""
+"""The result of reconstructing a cap."""
 
 from __future__ import annotations
 

@@ -45,12 +45,12 @@ class Silhouette:
 
     @cached_property
     def pixels(self) -> int:
-        """How many are seen."""
+        """How many pixels are visible."""
         return int(self.mask.sum())
 
     @cached_property
     def content(self) -> tuple[tuple[int, int, int, int], bytes]:
-        """The box, and a digest of what is in it."""
+        """The box and a digest of the mask, which tell silhouettes apart."""
         return self.box, blake2b(self.mask.tobytes(), digest_size=16).digest()
 
     def __eq__(self, other: object) -> bool:
