@@ -92,11 +92,3 @@ def sub_contours(contour: Points, corners: list[int]) -> list[Points]:
 def longest(pieces: list[Points]) -> Points:
     """Section 5.2 (3): the sub-contour of the most contour pixels."""
     return max(pieces, key=len)
-
-
-def mean_curvature(contour: Points) -> float:
-    """The "average curvature" of section 6.2 (1/px): a closed contour turns by 2π over its length.
-
-    The paper's limit of 0.103 for lengths above 100 separates nothing, so it is reported and never decides.
-    """
-    return 2 * pi / len(contour)

@@ -31,7 +31,6 @@ def reconstructions_of(together: Together) -> list[Reconstruction]:
         kinds=kinds,
         degrees=360 * together.coverage,
         sd=together.centre_sd,
-        residual=_root_mean_square(together.look.estimate.residual, where=kinds == 0),
     )
     return [_reconstruction(together, known, cap) for cap in range(len(kinds))]
 
@@ -44,7 +43,6 @@ class _Known:
     """As `kinds_of` gives them."""
     degrees: Array
     sd: Array
-    residual: Array
 
 
 def _reconstruction(together: Together, known: _Known, cap: int) -> Reconstruction:
@@ -62,7 +60,6 @@ def _reconstruction(together: Together, known: _Known, cap: int) -> Reconstructi
         why=f"{shape}: {degrees:.0f}° of the rim in sight{arcs_lost}; {guard or 'most probable ellipse'}",
         arcs=arcs,
         coverage_deg=degrees,
-        residual=float(known.residual[cap]),
         proposal="ellipse" if degrees >= ELLIPSE_FROM_DEG else "circle",
     )
 
@@ -81,11 +78,6 @@ def _guarded(together: Together, cap: int) -> tuple[Circle | Ellipse, str | None
     if np.hypot(ellipse.cx - x, ellipse.cy - y) > r:
         return around, "centre outside the enclosing circle; enclosing circle"
     return ellipse, None
-
-
-def _root_mean_square(values: Array, *, where: NDArray[np.bool_]) -> Array:
-    """Of each row (n, K), 0 where there is nothing to average."""
-    return np.sqrt((values**2 * where).sum(axis=1) / np.maximum(where.sum(axis=1), 1))
 
 
 def _ellipse(outlines: Outlines, cap: int) -> Ellipse:

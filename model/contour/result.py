@@ -36,8 +36,6 @@ class Reconstruction:
     """The visible outline cut up; empty for methods that do not tell arcs apart."""
     coverage_deg: float | None = None
     """How much of the whole rim is in sight, degrees of 360."""
-    residual: float | None = None
-    """Root mean square distance of the visible rim from the outline."""
     proposal: Literal["circle", "ellipse"] | None = None
     """What a person had better mark: a circle where too little rim is left to pin down an ellipse."""
 

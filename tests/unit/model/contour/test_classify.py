@@ -7,7 +7,6 @@ from fairyring.model.contour.classify import (
     corners_of,
     defects_of,
     longest,
-    mean_curvature,
     sub_contours,
 )
 from fairyring.model.contour.silhouette import Silhouette, contours_of
@@ -71,14 +70,6 @@ def test_sub_contours_wrap_round_and_share_their_corners():
 def test_a_contour_without_corners_is_one_piece():
     contour = np.zeros((4, 2))
     assert sub_contours(contour, []) == [contour]
-
-
-def test_the_mean_curvature_of_a_circle_is_close_to_the_papers_product_with_its_length():
-    contour = contours_of(disc())[0]
-    true_turning = mean_curvature(contour) * 40
-    assert true_turning == pytest.approx(2 * np.pi * 40 / len(contour))
-    # A circle counted in contour pixels is 2π r · (2√2 / π) long, so that curvature × length is 5.7 by 1 / r.
-    assert len(contour) / 40 == pytest.approx(5.70, abs=0.15)
 
 
 def test_a_contour_that_touches_itself_is_no_trouble():
