@@ -8,6 +8,7 @@ from hashlib import sha256
 from msgspec import Struct, json
 from sqlalchemy import Connection, insert, select, update
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import check_cap, check_name
@@ -27,9 +28,6 @@ from fairyring.storage.db.rows import (
 from fairyring.storage.errors import StoreError
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused
-
-DEFAULT_CATEGORY = "mushroom"
-"""May be used before anybody has made it; other categories come from imports."""
 
 
 class Derived(Struct, frozen=True, kw_only=True):
@@ -186,6 +184,7 @@ def _fitting(
         if edit.base == 0:
             raise StoreError("An annotation that was never made cannot be deleted.")
         return None
+    # May be used before anybody has made it; other categories come from imports.
     if edit.cap.category == DEFAULT_CATEGORY:
         ensure_category(connection, DEFAULT_CATEGORY, categories=categories)
     if edit.cap.category not in categories:

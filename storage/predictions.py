@@ -9,6 +9,7 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, insert, select, update
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import are_finite, check_cap, check_name
 from fairyring.storage.db.clock import now
@@ -32,7 +33,7 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
     visible: Outline
     score: float
     """Score, 0 to 1."""
-    category: str = "mushroom"
+    category: str = DEFAULT_CATEGORY
     fit: Fit = Fit()
     uid: str | None = None
     """Identifies it within its run and image: the same one again adds nothing."""

@@ -10,6 +10,7 @@ from typing import Any, Literal, get_args
 
 from msgspec import Struct, field
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 
 Outline = list[list[float]]
@@ -51,7 +52,7 @@ class Cap(Struct, frozen=True, kw_only=True):
     doubtful: bool = False
     order: int | None = None
     """Overlap order; a cap of higher order lies in front."""
-    category: str = "mushroom"
+    category: str = DEFAULT_CATEGORY
     prediction: int | None = None
     """The prediction this cap started from."""
 
@@ -79,7 +80,7 @@ class Prediction(Struct, frozen=True, kw_only=True):
     image: int
     visible: Outline
     score: float
-    category: str = "mushroom"
+    category: str = DEFAULT_CATEGORY
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     extra: dict[str, Any] = field(default_factory=dict)

@@ -16,12 +16,12 @@ import cv2
 import numpy as np
 
 from fairyring.app.bench.timing import Row
-from fairyring.app.commands.files import read_json
 from fairyring.model.contour.coco import silhouettes_of
 from fairyring.model.contour.methods import DEFAULT_METHOD, METHODS
 from fairyring.model.contour.reconstruct import reconstruct_silhouettes
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.json_files import read_json
 from fairyring.model.scene.clusters import Recipe, make_cluster
 
 SEED = 70_000

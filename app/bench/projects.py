@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 from msgspec import Struct
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import Project, create_project
 
@@ -48,7 +49,7 @@ def write_labels(folder: Path, beds: Sequence[Bed]) -> Path:
             {"id": number, "file_name": bed.name, "width": bed.width, "height": bed.height}
             for number, bed in numbered
         ],
-        "categories": [{"id": 1, "name": "mushroom"}],
+        "categories": [{"id": 1, "name": DEFAULT_CATEGORY}],
         "annotations": [annotation for number, bed in numbered for annotation in _annotations(number, bed)],
     }
     labels = folder / "labels.json"

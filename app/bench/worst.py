@@ -16,13 +16,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.app.commands.files import FileError, read_json
 from fairyring.model.contour.coco import silhouettes_of
 from fairyring.model.contour.reconstruct import reconstruct_silhouettes
 from fairyring.model.contour.result import ArcKind, Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.errors import FileError
 from fairyring.model.evaluate.centres import centre_error
 from fairyring.model.geometry.shapes import Circle, Ellipse, Points, points_of_part, polygon_of_shape
+from fairyring.model.json_files import read_json
 from fairyring.model.photo import read
 
 COUNT, COLUMNS = 10, 5

@@ -15,7 +15,7 @@ import anyio.to_thread
 
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.model.evaluate import centres
-from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import diameter_of_shape

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fairyring.app.commands.files import named, read_json, write_json
+from fairyring.app.commands.files import named, write_json
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.model.contour.method_names import MethodName
 
@@ -25,16 +25,18 @@ def contour(
 
     Example: `fairyring contour masks.json --out centres.json --method map`
     """
+    from fairyring.model.coco.document import read_document
     from fairyring.model.contour.coco import contour_document
     from fairyring.model.contour.priors import DEFAULT, read_priors
 
-    document = read_json(masks)
+    document = read_document(masks)
     chosen = read_priors(priors) if priors else DEFAULT
     with shown_on_stderr() as progress, named(masks):
         found = contour_document(document, method=method, priors=chosen, progress=progress)
-    refused = sum(annotation["center"] is None for annotation in found["annotations"])
     write_json(found, out)
-    typer.echo(f"{len(found['annotations'])} caps in {out}, {refused} of them refused", err=True)
+    caps = [cap for cap in found["annotations"] if isinstance(cap, dict)]
+    refused = sum(cap["center"] is None for cap in caps)
+    typer.echo(f"{len(caps)} caps in {out}, {refused} of them refused", err=True)
 
 
 def priors(
@@ -46,10 +48,11 @@ def priors(
 
     Example: `fairyring priors instances.json --out priors.json`
     """
+    from fairyring.model.coco.document import read_document
     from fairyring.model.contour.estimate import estimate_priors
     from fairyring.model.contour.priors import write_priors
 
-    document = read_json(labels)
+    document = read_document(labels)
     with named(labels):
         found = estimate_priors(document, source=labels.name)
     write_priors(found, out)

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from fairyring.app.commands.files import about, read_json
+from fairyring.app.commands.files import about
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.errors import FairyringError
 
@@ -74,9 +74,10 @@ def _evaluated(
     evaluate: Callable[[Any, Any], dict[str, Any]], predicted: Path, truth: Path
 ) -> dict[str, Any]:
     """The figures of two files; errors name the file they are about."""
+    from fairyring.model.coco.document import read_document
     from fairyring.model.evaluate.pages import DocumentError
 
-    documents = read_json(predicted), read_json(truth)
+    documents = read_document(predicted), read_document(truth)
     blamed = {"predicted": (predicted,), "truth": (truth,), None: (predicted, truth)}
     try:
         return evaluate(*documents)

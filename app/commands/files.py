@@ -1,31 +1,15 @@
-"""JSON files that commands read and write."""
+"""JSON files that commands write, and the names of those they read."""
 
 from __future__ import annotations
 
 import gzip
 import json
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from fairyring.model.errors import FairyringError
-
-
-class FileError(FairyringError):
-    """A file that cannot be read or written."""
-
-
-def read_json(path: Path) -> Any:
-    """The JSON in a file, gzipped or not; FileError with its name where there is none."""
-    try:
-        raw = path.read_bytes()
-        return json.loads(gzip.decompress(raw) if raw[:2] == b"\x1f\x8b" else raw)
-    except OSError as error:
-        raise FileError(f"{path} cannot be read: {error.strerror or error}.") from error
-    except (ValueError, EOFError, zlib.error, RecursionError) as error:
-        raise FileError(f"{path} is not a JSON file, or was cut off; export it again.") from error
+from fairyring.model.errors import FairyringError, FileError
 
 
 def write_json(document: Any, path: Path) -> None:

@@ -2,60 +2,85 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections.abc import Sequence
 from math import log
-from typing import Any
+from typing import NoReturn
 
 import numpy as np
 from msgspec import structs
 
-from fairyring.model.contour.coco import ContourError, silhouettes_of
+from fairyring.model.coco.annotations import is_ignored, segmentation_of, shape_of
+from fairyring.model.coco.document import Document, annotations_by_image, objects_of
+from fairyring.model.coco.faults import Fault, reported
+from fairyring.model.coco.images import read_images, size_of
+from fairyring.model.contour.coco import ContourError, silhouette_of
 from fairyring.model.contour.fitted_image import fitted_image
 from fairyring.model.contour.harmonic import Array
 from fairyring.model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
 from fairyring.model.contour.priors import DEFAULT, Priors
+from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.contour.together import Together
+from fairyring.model.geometry.outline_checks import check_mark
+from fairyring.model.geometry.shapes import Circle, Shape
 
 LEAST_CAPS = 30
 IN_VIEW = 0.93
 """A cap with so much of its rim in sight shows its own shape."""
 
 
-def estimate_priors(document: Any, *, source: str) -> Priors:
+def estimate_priors(document: Document, *, source: str) -> Priors:
     """Priors from a COCO document whose annotations hold visible masks and ``ellipse`` or ``circle``.
 
     Roundness comes from the whole outlines where they are given, else from the caps in full view; the
     harmonics from the caps in full view; size from the whole outlines against the circles around what is
-    visible; noise from the free rims of all. ``source`` is kept with the figures. Raises ContourError where
+    visible; noise from the free rims of all. Ignored caps, and those without a visible outline, tell nothing.
+    ``source`` is kept with the figures. Raises ContourError where something is wrong with the document, or
     there are too few caps.
     """
-    if not isinstance(document, dict) or not isinstance(document.get("annotations"), list):
-        raise ContourError("This is not a COCO document: it needs lists of images and of annotations.")
-    groups: dict[Any, list[dict[str, Any]]] = defaultdict(list)
-    for annotation in document["annotations"]:
-        if not annotation.get("iscrowd") and not annotation.get("ignore"):
-            groups[annotation["image_id"]].append(annotation)
+    if document.images is None:
+        raise ContourError("This is a list of results; give a COCO file, which lists the images too.")
+    groups = annotations_by_image(document)
     squares, stretches, sizes, rims, ripples = [], [], [], [], []
-    for image in document.get("images", []):
-        width, height = image["width"], image["height"]
-        annotations = groups[image["id"]]
-        caps = silhouettes_of(annotations, width=width, height=height)
-        whole = {cap: each for cap, each in zip(caps, annotations, strict=True) if cap.pixels}
-        if not whole:
+    for image in read_images(document, report=_stop).values():
+        with reported(image.where, _stop):
+            width, height = size_of(image)
+        wholes = _checked_caps(document, groups.get(image.id, []), width=width, height=height)
+        if not wholes:
             continue
-        together = fitted_image(whole, width=width, height=height).together(list(whole))
+        together = fitted_image(wholes, width=width, height=height).together(list(wholes))
         estimate, own = together.look.estimate, together.look.own
         squares.append(_squares_in_view(together))
         rims.append(estimate.residual[together.contact.free])
         ripples.append(ripple_powers(together.rims, estimate, own).ravel())
-        for annotation, around in zip(whole.values(), together.around.log_radius.tolist(), strict=True):
-            axes = _axes(annotation)
-            if axes is not None:
-                stretches.append(log(axes[0] / axes[1]) / 2)
-                sizes.append(log(axes[0] * axes[1]) / 2 - around)
+        for whole, around in zip(wholes.values(), together.around.log_radius.tolist(), strict=True):
+            if whole is not None:
+                longer, shorter = _axes(whole)
+                stretches.append(log(longer / shorter) / 2)
+                sizes.append(log(longer * shorter) / 2 - around)
     none = np.zeros((0, 2 + 2 * len(DEFAULT.wobble)))
     priors = _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
     return _with_noise(priors, np.concatenate(rims), np.concatenate(ripples))
+
+
+def _stop(fault: Fault) -> NoReturn:
+    raise ContourError(f"{fault.where}: {fault.reason}")
+
+
+def _checked_caps(
+    document: Document, indices: Sequence[int], *, width: int, height: int
+) -> dict[Silhouette, Shape | None]:
+    """The whole outline, where it is given, of every cap of an image of which something is seen."""
+    wholes: dict[Silhouette, Shape | None] = {}
+    for _, where, entry in objects_of("annotation", document.annotations, indices=indices, report=_stop):
+        with reported(where, _stop):
+            if is_ignored(entry) or segmentation_of(entry) is None:
+                continue
+            cap, whole = silhouette_of(entry, width=width, height=height), shape_of(entry)
+            if whole is not None:
+                check_mark(whole, width=width, height=height)
+            if cap.pixels:
+                wholes[cap] = whole
+    return wholes
 
 
 def _with_noise(priors: Priors, residual: Array, ripples: Array) -> Priors:
@@ -78,13 +103,9 @@ def _squares_in_view(together: Together) -> Array:
     return (square + variance)[together.coverage >= IN_VIEW]
 
 
-def _axes(annotation: dict[str, Any]) -> tuple[float, float] | None:
-    """Longer and shorter semi-axis of the whole outline."""
-    if annotation.get("ellipse"):
-        return float(annotation["ellipse"][2]), float(annotation["ellipse"][3])
-    if annotation.get("circle"):
-        return float(annotation["circle"][2]), float(annotation["circle"][2])
-    return None
+def _axes(whole: Shape) -> tuple[float, float]:
+    """Longer and shorter semi-axis."""
+    return (whole.r, whole.r) if isinstance(whole, Circle) else (whole.a, whole.b)
 
 
 def _priors(squares: Array, stretches: Array, sizes: Array, source: str) -> Priors:

@@ -10,8 +10,10 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.matching import mask_of
-from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import area_of_rle
 
 MAX_DETECTIONS = (1, 10, 300)
@@ -67,7 +69,7 @@ def coco_of_pages(pages: Sequence[Page]) -> tuple[dict[str, Any], list[dict[str,
             for number, page in enumerate(pages, start=1)
         ],
         "annotations": list(_annotations([page.truths for page in pages], predicted=False)),
-        "categories": [{"id": 1, "name": "mushroom"}],
+        "categories": [{"id": 1, "name": DEFAULT_CATEGORY}],
     }
     return document, list(_annotations([page.predictions for page in pages], predicted=True))
 

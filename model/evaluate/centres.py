@@ -14,8 +14,10 @@ from typing import Any, Literal
 import numpy as np
 from msgspec import Struct, to_builtins
 
+from fairyring.model.coco.document import Document
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_overlap, unmatched_in_ignored
-from fairyring.model.evaluate.pages import CapRecord, pages_of
+from fairyring.model.evaluate.pages import pages_of
 from fairyring.model.geometry.raster import iou_matrix
 from fairyring.model.geometry.shapes import Centre
 
@@ -149,7 +151,9 @@ def summarise(errors: Sequence[CentreError]) -> Summary:
     )
 
 
-def evaluate_centres(predicted: Any, truth: Any, *, by: Literal["iou", "id"] = "iou") -> dict[str, Any]:
+def evaluate_centres(
+    predicted: Document, truth: Document, *, by: Literal["iou", "id"] = "iou"
+) -> dict[str, Any]:
     """The figures of ``fairyring evaluate centres`` for two COCO documents or result lists.
 
     Only the truth's images count. Images are paired by base file name, by their id where one side is a list;

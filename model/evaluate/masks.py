@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct, to_builtins
 
+from fairyring.model.coco.document import Document
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.average_precision import average_precision
 from fairyring.model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, joined, outcomes_of_page
@@ -96,7 +97,7 @@ class MaskScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
     32² px, below 96² px and from there on, of caps from 30 px on; and ``under_30_px``."""
 
 
-def evaluate_masks(predicted: Any, truth: Any) -> dict[str, Any]:
+def evaluate_masks(predicted: Document, truth: Document) -> dict[str, Any]:
     """The figures of ``fairyring evaluate masks`` for two COCO documents or result lists.
 
     Only the truth's images count. Images are paired as by ``pages_of``. Raises FairyringError for what is

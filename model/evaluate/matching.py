@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.geometry.raster import Rle, shares_inside
 
 LEAST_IOU = 0.5

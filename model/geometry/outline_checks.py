@@ -23,6 +23,7 @@ from fairyring.model.geometry.self_contact import (
     self_contact,
 )
 from fairyring.model.geometry.shapes import (
+    Centre,
     Circle,
     GeometryError,
     Mark,
@@ -115,11 +116,19 @@ def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
     figures = astuple(mark)
     if any(type(figure) not in (int, float) or not math.isfinite(figure) for figure in figures):
         raise GeometryError("A centre, a radius or an angle is not a finite number.")
-    _check_reach(np.array([figures[:2]], dtype=np.float64), width, height)
+    check_centre((mark.cx, mark.cy), width=width, height=height)
     radii = (mark.r,) if isinstance(mark, Circle) else (mark.a, mark.b)
     if min(radii) <= 0 or max(radii) > REACH * max(width, height):
         raise GeometryError("A radius must be more than 0 and not many times the image.")
     return mark if isinstance(mark, Circle) else canonical_ellipse(*figures)
+
+
+def check_centre(centre: Centre, *, width: int, height: int) -> Centre:
+    """The finite centre of a cap, perhaps outside the image; GeometryError where it lies far outside."""
+    x, y = centre
+    if abs(x - width / 2) > (REACH + 0.5) * width or abs(y - height / 2) > (REACH + 0.5) * height:
+        raise GeometryError(f"A centre lies far outside the image of {width} × {height} pixels.")
+    return centre
 
 
 @dataclass

@@ -13,16 +13,15 @@ from typing import Any
 
 import cv2
 import msgspec
-import msgspec.structs
 
-from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
+from fairyring.model.coco.writing import DECIMALS, occlusion_keys, outline_keys, rounded, shape_keys
 from fairyring.model.progress import Progress, silent
 from fairyring.model.scene.bed import Bed, render_bed
 from fairyring.model.scene.processes import worked_on
 from fairyring.model.scene.settings import SceneError, Settings
 from fairyring.model.scene.truth import BedCap
 
-DECIMALS = 3
 PARTS = ".parts"
 DOCUMENT = "instances.json"
 
@@ -58,18 +57,15 @@ def write_beds(
 
 def annotation_of_cap(cap: BedCap) -> dict[str, Any]:
     """A cap in the contracts' keys, but for its id and its image's."""
-    x, y, width, height = bounds_of_outline(cap.visible)
     return {
         "category_id": 1,
-        "segmentation": cap.visible,
-        "area": round(area_of_outline(cap.visible), DECIMALS),
-        "bbox": _rounded(x, y, width, height),
+        **outline_keys(cap.visible),
         "iscrowd": 0,
-        "center": _rounded(*cap.centre),
-        "ellipse": _rounded(*msgspec.structs.astuple(cap.ellipse)),
+        "center": rounded(cap.centre),
+        **shape_keys(cap.ellipse),
         "amodal_segmentation": [cap.whole],
-        "visible_fraction": round(cap.visible_fraction, 4),
-        "occlude_rate": round(1 - cap.visible_fraction, 4),
+        "visible_fraction": round(cap.visible_fraction, DECIMALS),
+        **occlusion_keys(cap.visible_fraction),
         "order": cap.order,
     }
 
@@ -166,12 +162,8 @@ def _join(out: Path, head: dict[str, Any], count: int) -> None:
     document = {
         "info": head,
         "images": images,
-        "categories": [{"id": 1, "name": "mushroom", "supercategory": "fungus"}],
+        "categories": [{"id": 1, "name": DEFAULT_CATEGORY, "supercategory": "fungus"}],
         "annotations": annotations,
     }
     _write(out / DOCUMENT, msgspec.json.encode(document))
     shutil.rmtree(out / PARTS)
-
-
-def _rounded(*numbers: float) -> list[float]:
-    return [round(number, DECIMALS) for number in numbers]

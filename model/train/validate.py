@@ -1,4 +1,4 @@
-"""Validation: a network's predictions on labelled photos against the labels, as COCO documents."""
+"""Validation: a network's predictions on labelled photos against the labels."""
 
 from __future__ import annotations
 
@@ -9,11 +9,15 @@ from typing import Any
 
 import numpy as np
 import torch
+from msgspec import to_builtins
+from msgspec.structs import replace
 
-from fairyring.model.evaluate.masks import evaluate_masks
+from fairyring.model.evaluate.caps import CapRecord
+from fairyring.model.evaluate.masks import score_masks
 from fairyring.model.evaluate.outcomes import joined, outcomes_of_page
-from fairyring.model.evaluate.pages import pages_of
-from fairyring.model.geometry.raster import rle_of_outline
+from fairyring.model.evaluate.pages import Page
+from fairyring.model.geometry.raster import Rle, rle_of_outline
+from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.predict.calibration import Calibration, calibrated, fit_calibration
 from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
@@ -47,49 +51,37 @@ def validate(
     for nth, example in enumerate(examples):
         progress(nth, len(examples), f"validating on {example.path.name}")
         found.append(predictor.detect(read_rgb(example.path)))
-    labels, said = document_of_labels(examples), document_of_detections(examples, found)
-    pages = pages_of(said, labels, masks=True, centres=False)
+    pages = [page_of(example, detections) for example, detections in zip(examples, found, strict=True)]
     outcomes = joined([outcomes_of_page(page) for page in pages])
     counted = ~outcomes.dropped
     calibration = fit_calibration(outcomes.score[counted], outcomes.right[counted])
-    for cap in said["annotations"]:
-        cap["score"] = float(calibrated(np.array(cap["score"]), calibration))
-    return Validation(figures=evaluate_masks(said, labels), calibration=calibration)
+    figures = to_builtins(score_masks([_calibrated(page, calibration) for page in pages]))
+    return Validation(figures=figures, calibration=calibration)
 
 
-def document_of_labels(examples: Sequence[Example]) -> dict[str, Any]:
-    """The labels as a COCO document; ignored regions carry ``ignore``."""
-    annotations = [
-        {"image_id": nth, "segmentation": _rle(outline, example), "ignore": ignored}
-        for nth, example in enumerate(examples, start=1)
-        for ignored, outlines in ((False, example.caps), (True, example.ignored))
-        for outline in outlines
+def page_of(example: Example, found: Sequence[Detection]) -> Page:
+    """A labelled photo and what was detected in it, as evaluation compares them."""
+    return Page(
+        file_name=example.path.name,
+        width=example.width,
+        height=example.height,
+        truths=[
+            CapRecord(rle=_rle(outline, example), ignored=ignored)
+            for ignored, outlines in ((False, example.caps), (True, example.ignored))
+            for outline in outlines
+        ],
+        predictions=[CapRecord(rle=detection.rle, score=detection.score) for detection in found],
+        light=example.light,
+        form=example.form,
+    )
+
+
+def _calibrated(page: Page, calibration: Calibration) -> Page:
+    predictions = [
+        replace(cap, score=float(calibrated(np.array(cap.score), calibration))) for cap in page.predictions
     ]
-    return _document(examples, annotations)
+    return replace(page, predictions=predictions)
 
 
-def document_of_detections(
-    examples: Sequence[Example], found: Sequence[Sequence[Detection]]
-) -> dict[str, Any]:
-    """Predictions as a COCO document, in the order of the examples."""
-    annotations = [
-        {"image_id": nth, "segmentation": detection.rle, "score": detection.score}
-        for nth, detections in enumerate(found, start=1)
-        for detection in detections
-    ]
-    return _document(examples, annotations)
-
-
-def _rle(outline: list[list[float]], example: Example) -> dict[str, Any]:
+def _rle(outline: Outline, example: Example) -> Rle:
     return rle_of_outline(outline, height=example.height, width=example.width)
-
-
-def _document(examples: Sequence[Example], annotations: list[dict[str, Any]]) -> dict[str, Any]:
-    images = []
-    for nth, example in enumerate(examples, start=1):
-        size = {"width": example.width, "height": example.height}
-        groups = {"light": example.light, "form": example.form}
-        # Photos of one name may lie in several folders; here each is its own.
-        images.append({"id": nth, "file_name": f"{nth}.png", **size, **groups})
-    numbered = [{"id": nth, "category_id": 1, **cap} for nth, cap in enumerate(annotations, start=1)]
-    return {"images": images, "annotations": numbered, "categories": [{"id": 1, "name": "mushroom"}]}

@@ -1,32 +1,25 @@
-"""Writes COCO. ``formats.coco`` lists the keys that are ours and reads them back.
-
-``bbox``, ``area`` and ``segmentation`` come from one geometry, the outline as it is written. Coordinates are
-continuous and rounded to ``DECIMALS``; only keypoints are pixel indices, 0.5 less.
-"""
+"""Writes what the store holds as COCO. ``model.coco`` lists the keys that are ours."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, BinaryIO
 
 import msgspec
-import numpy as np
 
-from fairyring.model.geometry.shapes import (
-    Circle,
-    Ellipse,
-    Polygon,
-    area_of_outline,
-    bounds_of_outline,
-    keypoint_of_centre,
-    polygon_of_shape,
+from fairyring.model.coco.writing import (
+    MARKED,
+    RECONSTRUCTED,
+    centre_keys,
+    outline_keys,
+    rounded,
+    rounded_outline,
+    whole_keys,
 )
+from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, polygon_of_shape
 from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
 
-DECIMALS = 4
 KEYPOINTS = ["centre"]
-RECONSTRUCTED, MARKED = 1, 2
-"""Visibility of the keypoint: worked out, or placed by a person."""
 
 
 def annotation_entry(annotation: Annotation, *, number: int, image: int, category: int) -> dict[str, Any]:
@@ -38,7 +31,7 @@ def annotation_entry(annotation: Annotation, *, number: int, image: int, categor
         whole, centre = cap.mark, (cap.mark.cx, cap.mark.cy)
     entry = _geometry(cap.visible, cap.mark, whole)
     entry |= {"image_id": image, "category_id": category, "iscrowd": int(cap.ignored), "marked": marked}
-    entry |= _centre(centre, visibility=MARKED if marked else RECONSTRUCTED)
+    entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
     entry |= {"doubt": True} if cap.doubtful else {}
     entry |= {"ignored": True} if cap.ignored else {}
     entry |= {} if cap.order is None else {"order": cap.order}
@@ -52,7 +45,7 @@ def prediction_entry(prediction: Prediction, *, number: int, image: int, categor
     """One prediction, with its score."""
     entry = _geometry(prediction.visible, None, prediction.whole)
     entry |= {"image_id": image, "category_id": category, "iscrowd": 0, "score": prediction.score}
-    entry |= _centre(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
+    entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
     return {"id": number} | prediction.extra | entry
 
 
@@ -89,47 +82,19 @@ def write_document(file: BinaryIO, head: dict[str, Any], entries: Iterable[dict[
 
 
 def _geometry(visible: Outline, mark: Mark | None, whole: Shape | None) -> dict[str, Any]:
-    outline = rounded(visible or [_polygon_of(mark)])
-    entry: dict[str, Any] = {
-        "segmentation": outline,
-        "bbox": rounded([list(bounds_of_outline(outline))])[0],
-        "area": round(area_of_outline(outline), DECIMALS),
-    }
+    entry = outline_keys(rounded_outline(visible or [_polygon_of(mark)]))
     if not visible:
         entry["segmentation_of"] = "mark"
     if isinstance(mark, Polygon):
-        entry["mark"] = rounded([mark.points])[0]
-    return entry | _whole(whole, outline if visible else None)
-
-
-def _whole(whole: Shape | None, visible: Outline | None) -> dict[str, Any]:
-    if whole is None:
-        return {}
-    numbers = rounded([list(msgspec.structs.astuple(whole))])[0]
-    polygon = rounded([polygon_of_shape(type(whole)(*numbers))])
-    key = "circle" if isinstance(whole, Circle) else "ellipse"
-    entry: dict[str, Any] = {key: numbers, "amodal_segmentation": polygon}
-    if visible is not None:
-        hidden = 1 - area_of_outline(visible) / area_of_outline(polygon)
-        entry["occlude_rate"] = round(min(max(hidden, 0.0), 1.0), DECIMALS)
+        entry["mark"] = rounded(mark.points)
+    if whole is not None:
+        entry |= whole_keys(whole, visible_area=entry["area"] if visible else None)
     return entry
-
-
-def _centre(centre: tuple[float, float] | None, *, visibility: int) -> dict[str, Any]:
-    if centre is None:
-        return {"center": None, "keypoints": [0, 0, 0], "num_keypoints": 0}
-    x, y = rounded([list(keypoint_of_centre(centre))])[0]
-    return {"center": rounded([list(centre)])[0], "keypoints": [x, y, visibility], "num_keypoints": 1}
 
 
 def _polygon_of(mark: Mark | None) -> list[float]:
     assert mark is not None, "a cap has an outline or a mark"
     return mark.points if isinstance(mark, Polygon) else polygon_of_shape(mark)
-
-
-def rounded(parts: Sequence[Sequence[float]]) -> list[list[float]]:
-    """To ``DECIMALS``, so that what is written, read and written again stays the same."""
-    return [np.round(np.asarray(part, dtype=np.float64), DECIMALS).tolist() for part in parts]
 
 
 def _number_of_license(license_: dict[str, Any], licenses: list[dict[str, Any]]) -> int:

@@ -22,7 +22,7 @@ class Problem(Struct, frozen=True):
 
 
 class FoundCap(Struct, frozen=True, kw_only=True):
-    """One cap. Its outline is as the file has it: not yet checked against the image."""
+    """One cap. Its outline is as the file has it, polygons or an RLE: not yet checked against the image."""
 
     where: str
     cap: Cap
@@ -32,8 +32,8 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     uid: str | None = None
-    rle_size: tuple[int, int] | None = None
-    """(height, width) of the RLE the outline came from."""
+    rle: dict[str, Any] | None = None
+    """In place of the visible outline, which is decoded once the photo's size is known."""
     extra: dict[str, Any] = field(default_factory=dict)
 
 
@@ -60,7 +60,3 @@ class Found(Struct, frozen=True, kw_only=True):
     problems: list[Problem]
     categories: dict[str, dict[str, Any]] = field(default_factory=dict)
     """Unknown keys of each category."""
-
-
-class UnusableError(Exception):
-    """One item of a file cannot be taken; the text says why and becomes a ``Problem``."""

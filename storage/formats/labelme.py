@@ -8,14 +8,15 @@ cap: polygons are its parts, a circle its mark.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.model.json_files import parse_json
+from fairyring.model.json_values import ValueRefusedError, kept, number, numbers, size
 from fairyring.storage.cap_validity import MAX_NAME
 from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem, UnusableError
-from fairyring.storage.formats.values import kept, number, numbers, read_json, size
+from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
 from fairyring.storage.records import Cap, Mark
 
 SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
@@ -25,14 +26,16 @@ IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "ima
 def parse_labelme(data: bytes, *, file: str) -> Found:
     """All a labelme file says.
 
+    What is wrong with single shapes is in ``problems``.
+
     Raises:
-        StoreError: it is not a labelme file at all. What is wrong with single shapes is in ``problems``.
+        FairyringError: it is not a labelme file at all; the sentence does not name it.
     """
-    document = read_json(data, file=file)
+    document = parse_json(data)
     if not isinstance(document, dict) or not isinstance(document.get("shapes"), list):
-        raise StoreError(f"{file} is not a labelme file: it has no list of shapes.")
+        raise StoreError("This is not a labelme file: it has no list of shapes.")
     if not isinstance(document.get("imagePath"), str):
-        raise StoreError(f"{file} does not name its image; set imagePath.")
+        raise StoreError("This does not name its image; set imagePath.")
     problems: list[Problem] = []
     shapes = list(_shapes(document["shapes"], problems, file=file))
     try:
@@ -41,28 +44,32 @@ def parse_labelme(data: bytes, *, file: str) -> Found:
             file_name=document["imagePath"],
             width=size(document.get("imageWidth"), "imageWidth"),
             height=size(document.get("imageHeight"), "imageHeight"),
-            extra=kept({key: value for key, value in document.items() if key not in IMAGE_KEYS}),
+            extra=kept(
+                {key: value for key, value in document.items() if key not in IMAGE_KEYS},
+                left_out=lambda reason: problems.append(Problem(file, "image", reason)),
+            ),
             caps=[_cap(group) for group in _grouped(shapes)],
         )
-    except UnusableError as error:
-        raise StoreError(f"{file}: {error} Put it right, or export the file anew.") from error
+    except ValueRefusedError as error:
+        raise StoreError(f"{error} Put it right, or export the file anew.") from error
     return Found(file=file, images=[image], problems=problems)
 
 
 class _Shape:
     """One usable shape."""
 
-    def __init__(self, entry: Any, where: str) -> None:
+    def __init__(self, entry: Any, where: str, left_out: Callable[[str], None]) -> None:
         if not isinstance(entry, dict) or not isinstance(entry.get("points"), list):
-            raise UnusableError("It has no points.")
+            raise ValueRefusedError("It has no points.")
         label, group = entry.get("label"), entry.get("group_id")
         if not isinstance(label, str) or not label.isprintable() or not 0 < len(label) <= MAX_NAME:
-            raise UnusableError("The label is not a short line of text.")
+            raise ValueRefusedError("The label is not a short line of text.")
         self.where = where
         self.label = label
         self.group = group if type(group) in (int, str) else None
         self.geometry = _geometry(entry)
-        self.extra = kept({key: value for key, value in entry.items() if key not in SHAPE_KEYS and value})
+        others = {key: value for key, value in entry.items() if key not in SHAPE_KEYS and value}
+        self.extra = kept(others, left_out=left_out)
 
 
 def _geometry(entry: dict[str, Any]) -> Circle | Polygon:
@@ -71,19 +78,28 @@ def _geometry(entry: dict[str, Any]) -> Circle | Polygon:
     if kind == "polygon":
         return Polygon([coordinate for point in points for coordinate in point])
     if kind != "circle":
-        raise UnusableError(f"Shapes of type {kind!r:.40} are not known here; draw a polygon or a circle.")
+        raise ValueRefusedError(
+            f"Shapes of type {kind!r:.40} are not known here; draw a polygon or a circle."
+        )
     if len(points) != 2:
-        raise UnusableError(f"A circle is two points, its centre and one on its rim; this has {len(points)}.")
+        raise ValueRefusedError(
+            f"A circle is two points, its centre and one on its rim; this has {len(points)}."
+        )
     (cx, cy), (x, y) = points
     return Circle(cx, cy, number(math.hypot(x - cx, y - cy), "The radius"))
 
 
 def _shapes(entries: list[Any], problems: list[Problem], *, file: str) -> Iterable[_Shape]:
     for index, entry in enumerate(entries):
+        where = f"shape {index + 1}"
+
+        def report(reason: str, where: str = where) -> None:
+            problems.append(Problem(file, where, reason))
+
         try:
-            yield _Shape(entry, f"shape {index + 1}")
-        except UnusableError as error:
-            problems.append(Problem(file, f"shape {index + 1}", str(error)))
+            yield _Shape(entry, where, report)
+        except ValueRefusedError as error:
+            report(str(error))
 
 
 def _grouped(shapes: Iterable[_Shape]) -> list[list[_Shape]]:

@@ -10,9 +10,17 @@ from hashlib import blake2b
 import msgspec
 from msgspec import structs
 
+from fairyring.model.coco.visible import outline_in
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.outline_checks import check_mark
-from fairyring.model.geometry.shapes import Circle, Ellipse, area_of_outline, polygon_of_shape
+from fairyring.model.geometry.outline_checks import check_centre, check_mark
+from fairyring.model.geometry.shapes import (
+    Centre,
+    Circle,
+    Ellipse,
+    area_of_outline,
+    centre_of_shape,
+    polygon_of_shape,
+)
 from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, Problem
@@ -40,26 +48,32 @@ def fit_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[list
 
 
 def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
-    if found.rle_size not in (None, (photo.height, photo.width)):
-        height, width = found.rle_size or (0, 0)
-        raise StoreError(f"The RLE is {width} × {height}, the photo {photo.width} × {photo.height} pixels.")
-    cap = found.cap
-    if cap.visible == [] and cap.mark is None and (shape := _checked_shape(found.whole, photo)):
-        cap = structs.replace(cap, visible=[polygon_of_shape(shape)])
     remarks: list[str] = []
+    whole, centre = _checked_shape(found.whole, photo), _checked_centre(found.centre, photo)
+    cap = structs.replace(found.cap, visible=_visible(found, photo, whole))
     cap = check_cap(cap, width=photo.width, height=photo.height, left_out=remarks.append)
-    if found.marked and cap.mark is None and found.centre is not None:
-        cap = structs.replace(cap, mark=_mark_around(found.centre, cap.visible))
+    if found.marked and cap.mark is None and centre is not None:
+        cap = structs.replace(cap, mark=_mark_around(centre, cap.visible))
     mark = cap.mark
     if isinstance(mark, Circle | Ellipse):
         whole, centre = mark, (mark.cx, mark.cy)
         remarks += _remarks_on_centre(found, centre)
+    elif whole is None:
+        centre = None
     else:
-        whole = _checked_shape(found.whole, photo)
-        centre = found.centre or (whole.cx, whole.cy) if whole else None
+        centre = centre or centre_of_shape(whole)
     own = found.uid if found.uid and OWN_NUMBER.fullmatch(found.uid) else None
     uid = own or content_number(cap, photo=photo)
-    return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid), remarks
+    return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid, rle=None), remarks
+
+
+def _visible(found: FoundCap, photo: Photo, whole: Shape | None) -> Outline:
+    """As the file has it; where it gives only what a machine worked out, that is taken for what is seen."""
+    if found.rle is not None:
+        return outline_in(found.rle, width=photo.width, height=photo.height)
+    if found.cap.visible or found.cap.mark is not None or whole is None:
+        return found.cap.visible
+    return [polygon_of_shape(whole)]
 
 
 def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str]:
@@ -79,6 +93,10 @@ def _checked_shape(shape: Shape | None, photo: Photo) -> Shape | None:
     if shape is not None:
         check_mark(shape, width=photo.width, height=photo.height)
     return shape
+
+
+def _checked_centre(centre: Centre | None, photo: Photo) -> Centre | None:
+    return centre and check_centre(centre, width=photo.width, height=photo.height)
 
 
 def _mark_around(centre: tuple[float, float], visible: Outline) -> Circle:

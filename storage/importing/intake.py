@@ -8,10 +8,10 @@ from pathlib import Path
 from msgspec import Struct, field, structs
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.json_values import base_name
 from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.found import FoundCap, FoundImage, Problem, UnusableError
-from fairyring.storage.formats.values import base_name
+from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
 from fairyring.storage.importing.cap_checks import fit_caps
 from fairyring.storage.importing.photos import Photo, examine, find_beside
 from fairyring.storage.importing.sources import Document, Sources
@@ -67,7 +67,7 @@ def take_in(
         progress(done, len(tasks), "Checking")
         try:
             take()
-        except (FairyringError, UnusableError) as error:
+        except FairyringError as error:
             intake.problems.append(Problem(file, where, str(error).removeprefix(f"{file}: ")))
     return intake
 

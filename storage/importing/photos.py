@@ -14,10 +14,10 @@ from uuid import uuid4
 from msgspec import Struct, field
 from sqlalchemy import Connection, select
 
+from fairyring.model.json_values import base_name
 from fairyring.model.photo import probe
 from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.values import base_name
 
 INCOMING = ".incoming"
 
@@ -50,7 +50,7 @@ def examine(path: Path) -> Photo:
 
     Raises:
         PhotoError: it cannot be read as an image.
-        UnusableError: its name cannot be kept.
+        ValueRefusedError: its name cannot be kept.
     """
     info = probe(path)
     return Photo(

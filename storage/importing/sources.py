@@ -9,6 +9,8 @@ from pathlib import Path
 
 from msgspec import Struct, field
 
+from fairyring.model.errors import FairyringError
+from fairyring.model.json_files import unzipped
 from fairyring.model.photo import SUFFIXES
 from fairyring.storage.choices import ImportFormat
 from fairyring.storage.errors import StoreError
@@ -17,6 +19,7 @@ from fairyring.storage.formats.found import Found, Problem
 from fairyring.storage.formats.labelme import parse_labelme
 
 ARCHIVE_SUFFIXES = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"}
+LABEL_SUFFIXES = (".json", ".json.gz")
 
 
 class Document(Struct, frozen=True, kw_only=True):
@@ -46,7 +49,7 @@ def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
     """
     sources = Sources()
     for path in paths:
-        if path.suffix.lower() in ARCHIVE_SUFFIXES:
+        if path.suffix.lower() in ARCHIVE_SUFFIXES and not _holds_labels(path):
             raise StoreError(f"{path} is an archive; unpack it and import the folder.")
         if path.is_dir():
             for file in _files_below(path):
@@ -68,9 +71,7 @@ def _files_below(folder: Path) -> Iterator[Path]:
 
 
 def _take(file: Path, sources: Sources, *, kind: ImportFormat, named: bool) -> None:
-    is_document = file.suffix.lower() == ".json" or (
-        named and kind in (ImportFormat.coco, ImportFormat.labelme)
-    )
+    is_document = _holds_labels(file) or (named and kind in (ImportFormat.coco, ImportFormat.labelme))
     if is_document and kind != ImportFormat.images:
         _read(file, sources, kind=kind)
     elif kind in (ImportFormat.auto, ImportFormat.images) and (named or file.suffix.lower() in SUFFIXES):
@@ -79,13 +80,17 @@ def _take(file: Path, sources: Sources, *, kind: ImportFormat, named: bool) -> N
         sources.problems.append(Problem(str(file), "", f"This is no file of the format {kind}."))
 
 
+def _holds_labels(file: Path) -> bool:
+    return file.name.lower().endswith(LABEL_SUFFIXES)
+
+
 def _read(file: Path, sources: Sources, *, kind: ImportFormat) -> None:
     try:
         data = file.read_bytes()
-        found = _parse(data, file=str(file), kind=kind)
+        found = _parse(unzipped(data), file=str(file), kind=kind)
         sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
-    except StoreError as error:
-        sources.problems.append(Problem(str(file), "", str(error).removeprefix(f"{file}: ")))
+    except FairyringError as error:
+        sources.problems.append(Problem(str(file), "", str(error)))
     except OSError as error:
         sources.problems.append(Problem(str(file), "", f"It cannot be read: {error.strerror}."))
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.masks import MaskScores, score_masks
-from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import rle_of_mask
 
 WIDTH, HEIGHT = 400, 200

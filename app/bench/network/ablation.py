@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from fairyring.app.bench.network.sets import LabelledPhotos, rendered_for_training
 from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
+from fairyring.model.coco.document import document_of
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.network.weights import load_weights
@@ -82,7 +83,7 @@ def ablation_rows(
         for window in WINDOWS:
             settings = DecodeConfig(window=window)
             predicted = predicted_document(predictor, test, settings=settings, progress=progress)
-            figures = evaluate_masks(predicted, test.document)
+            figures = evaluate_masks(document_of(predicted), document_of(test.document))
             rows.append(mask_row(name, figures) | {"window": window})
     return rows
 

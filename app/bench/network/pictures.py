@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.app.bench.network.tables import CERTAIN
-from fairyring.app.commands.files import FileError
+from fairyring.model.coco.document import document_of
+from fairyring.model.errors import FileError
 from fairyring.model.evaluate.masks import score_masks
 from fairyring.model.evaluate.pages import pages_of
 from fairyring.model.geometry.shapes import Outline, points_of_part
@@ -26,7 +27,7 @@ SUBPIXEL = 4
 
 def draw_examples(predicted: dict[str, Any], photos: LabelledPhotos, out: Path) -> list[Path]:
     """Writes NAME-best.jpg, NAME-typical.jpg and NAME-worst.jpg, by AP, and returns them."""
-    pages = pages_of(predicted, photos.document, masks=True, centres=False)
+    pages = pages_of(document_of(predicted), document_of(photos.document), masks=True, centres=False)
     scores = [score_masks([page]).ap or 0.0 for page in pages]
     order = np.argsort(scores)
     chosen = {"best": order[-1], "typical": order[len(order) // 2], "worst": order[0]}

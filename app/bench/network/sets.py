@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fairyring.app.commands.files import read_json
 from fairyring.model import photo
 from fairyring.model.errors import FairyringError
+from fairyring.model.json_files import read_json
 from fairyring.model.photo import Pixels
 from fairyring.model.progress import Progress
 from fairyring.model.scene.dataset import DOCUMENT, write_beds

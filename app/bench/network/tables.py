@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from fairyring.app.bench.network.sets import LabelledPhotos
+from fairyring.model.coco.document import document_of
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
@@ -49,7 +50,7 @@ def predicted_document(
 
 def success_rows(predicted: dict[str, Any], photos: LabelledPhotos) -> list[dict[str, Any]]:
     """Table 2: all caps of a set, then by light and by form, with the paper's figures beside."""
-    figures = evaluate_masks(predicted, photos.document)
+    figures = evaluate_masks(document_of(predicted), document_of(photos.document))
     rows = [_row("all", figures, PAPER_MASKS["S50"])]
     for group, papers in (("light", PAPER_LIGHTS), ("form", {}), ("size", {})):
         for value, scores in figures["groups"].get(group, {}).items():
@@ -60,13 +61,13 @@ def success_rows(predicted: dict[str, Any], photos: LabelledPhotos) -> list[dict
 def centre_rows(predicted: dict[str, Any], photos: LabelledPhotos) -> list[dict[str, Any]]:
     """Table 3: how far the centres of certain predictions lie from the true ones."""
     certain = [cap for cap in predicted["annotations"] if cap["score"] >= CERTAIN]
-    found = contour_document(predicted | {"annotations": certain})
+    found = contour_document(document_of(predicted | {"annotations": certain}))
     rows = []
     for without_doubt in (False, True):
         truth = _without_doubt(photos.document) if without_doubt else photos.document
         if without_doubt and truth == photos.document:
             continue
-        figures = evaluate_centres(found, truth)
+        figures = evaluate_centres(document_of(found), document_of(truth))
         cdr, px = figures["cdr"], figures["px"]
         rows.append(
             {

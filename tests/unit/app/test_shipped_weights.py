@@ -8,6 +8,7 @@ import torch
 
 from fairyring.app.bench.network.sets import rendered
 from fairyring.app.bench.network.tables import predicted_document
+from fairyring.model.coco.document import document_of
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import Predictor
@@ -20,6 +21,7 @@ LEAST_AP, LEAST_S50 = 0.75, 0.85
 def test_shipped_weights_see_most_caps_of_fresh_beds(tmp_path: Path) -> None:
     beds = rendered("paper", tmp_path, count=3, progress=silent)
     predictor = Predictor(load_weights(SHIPPED).network, device=torch.device("cpu"))
-    figures = evaluate_masks(predicted_document(predictor, beds), beds.document)
+    predicted = document_of(predicted_document(predictor, beds))
+    figures = evaluate_masks(predicted, document_of(beds.document))
     assert figures["AP"] >= LEAST_AP
     assert figures["S50"] >= LEAST_S50

@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fairyring.model.coco.document import document_of
 from fairyring.model.contour.coco import ContourError
 from fairyring.model.contour.estimate import estimate_priors
 from fairyring.model.contour.priors import DEFAULT, PriorsError, read_priors, write_priors
@@ -33,7 +34,7 @@ def labels(clusters: int) -> dict:
 
 
 def test_priors_come_close_to_the_shapes_that_the_caps_were_made_with():
-    priors = estimate_priors(labels(6), source="clusters")
+    priors = estimate_priors(document_of(labels(6)), source="clusters")
     assert priors.source == "clusters"
     assert priors.stretch == pytest.approx(0.06, rel=0.25)
     assert priors.wobble == pytest.approx(RECIPE.wobble, rel=0.4)
@@ -65,7 +66,7 @@ def noisy_discs(deviation: float) -> tuple[dict, np.ndarray]:
 @pytest.mark.parametrize("deviation", [0.6, 1.0])
 def test_noise_is_what_is_left_of_the_known_wavering_by_outlines_of_five_harmonics(deviation: float):
     document, waverings = noisy_discs(deviation)
-    priors = estimate_priors(document, source="discs")
+    priors = estimate_priors(document_of(document), source="discs")
     spectrum = np.fft.rfft(waverings)
     # An outline follows the waves up to the fifth; a rim point is the mean of a 48th of the rim.
     spectrum[:, :6] = 0
@@ -77,19 +78,36 @@ def test_noise_is_what_is_left_of_the_known_wavering_by_outlines_of_five_harmoni
 
 
 def test_perfect_masks_are_hardly_noisy_and_leave_the_length_as_it_is():
-    priors = estimate_priors(noisy_discs(0)[0], source="discs")
+    priors = estimate_priors(document_of(noisy_discs(0)[0]), source="discs")
     assert 0.05 <= priors.noise < 0.2
     assert priors.noise_length == DEFAULT.noise_length
 
 
 def test_too_few_caps_are_refused():
+    few = document_of(labels(1) | {"annotations": labels(1)["annotations"][:3]})
     with pytest.raises(ContourError, match="30 caps"):
-        estimate_priors(labels(1) | {"annotations": labels(1)["annotations"][:3]}, source="three caps")
+        estimate_priors(few, source="three caps")
+
+
+@pytest.mark.parametrize(
+    ("keys", "reason"),
+    [
+        ({"segmentation": [[1, 1, 5, 5]]}, "annotation 1: A polygon needs at least three points"),
+        ({"ellipse": [10, 10, 5]}, "annotation 1: Its ellipse is not 5 finite numbers"),
+        ({"ellipse": [10, 10, 5, 0, 0]}, "annotation 1: A radius must be more than 0"),
+        ({"ignore": "no"}, "annotation 1: “ignore” is neither true nor false"),
+    ],
+)
+def test_a_label_that_is_wrong_is_named(keys: dict, reason: str):
+    document = labels(1)
+    document["annotations"][0] |= keys
+    with pytest.raises(ContourError, match=reason):
+        estimate_priors(document_of(document), source="x")
 
 
 def test_what_is_no_coco_document_is_refused():
-    with pytest.raises(ContourError, match="not a COCO document"):
-        estimate_priors([1, 2], source="a list")
+    with pytest.raises(ContourError, match="list of results"):
+        estimate_priors(document_of([1, 2]), source="a list")
 
 
 def test_written_priors_are_read_back(tmp_path: Path):

@@ -15,8 +15,9 @@ from pycocotools.coco import COCO
 from pycocotools.cocoeval import COCOeval
 
 from fairyring.model.evaluate.average_precision import average_precision, coco_of_pages
+from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.masks import score_masks
-from fairyring.model.evaluate.pages import CapRecord, Page
+from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import rle_of_mask
 
 SIDE = 160

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fairyring.model.coco.document import document_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
 from fairyring.model.evaluate.pages import CapRecord, DocumentError
@@ -147,6 +148,10 @@ def document(*annotations: dict[str, Any], name: str = "beds/a.jpg", image_id: i
     }
 
 
+def figures_of(predicted: Any, truth: Any, **how: Any) -> dict[str, Any]:
+    return evaluate_centres(document_of(predicted), document_of(truth), **how)
+
+
 def disc(cx: float, cy: float, r: float = 15.0) -> list[list[float]]:
     return [polygon_of_shape(Circle(cx, cy, r), chord_error=0.02)]
 
@@ -158,7 +163,7 @@ def test_the_command_s_figures_have_the_agreed_shape() -> None:
     )
     predicted = document({"segmentation": disc(52, 51), "center": [52, 51]}, name="a.jpg", image_id=1)
 
-    figures = json.loads(json.dumps(evaluate_centres(predicted, truth)))
+    figures = json.loads(json.dumps(figures_of(predicted, truth)))
 
     # |2| / 200 + |1| / 100 = 2 %; √5 px, over 30 px.
     spread = {"mean": pytest.approx(2.0), "median": pytest.approx(2.0), "p95": pytest.approx(2.0)}
@@ -189,7 +194,7 @@ def test_a_centre_is_center_then_the_circle_s_then_the_ellipse_s_then_fitted(
     truth = document({"segmentation": disc(51, 44), "center": [0, 0]})
     predicted = document({"segmentation": disc(51, 44), **keys})
 
-    figures = evaluate_centres(predicted, truth)
+    figures = figures_of(predicted, truth)
 
     assert figures["bias_px"] == pytest.approx(centre, abs=1e-3)
 
@@ -199,7 +204,7 @@ def test_the_centre_of_a_mask_is_fitted_to_its_rim_in_continuous_coordinates() -
     rle = rle_of_mask((columns - 51.5) ** 2 + (rows - 44.5) ** 2 < 15**2)
     truth = document({"segmentation": disc(51.5, 44.5), "center": [51.5, 44.5]})
 
-    figures = evaluate_centres(document({"segmentation": rle}), truth)
+    figures = figures_of(document({"segmentation": rle}), truth)
 
     assert figures["bias_px"] == pytest.approx((0, 0), abs=0.02)
 
@@ -216,7 +221,7 @@ def test_pairing_by_id_reads_no_segmentation() -> None:
         {"id": 99, "image_id": 7, "center": [5, 5]},
     ]
 
-    figures = evaluate_centres(predicted, truth, by="id")
+    figures = figures_of(predicted, truth, by="id")
 
     # 1 is paired, 2 was refused, 3 is not there, 4 is ignored, 99 is nobody's.
     assert (figures["matched"], figures["missed"], figures["extra"]) == (1, 2, 1)
@@ -227,7 +232,7 @@ def test_a_refused_cap_is_missed_though_its_mask_fits() -> None:
     truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
     predicted = document({"segmentation": disc(50, 50), "center": None, "refusal": "nothing but border"})
 
-    figures = evaluate_centres(predicted, truth)
+    figures = figures_of(predicted, truth)
 
     assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 1, 0)
     assert figures["cdr"]["mean"] is None
@@ -237,7 +242,7 @@ def test_a_refused_cap_is_missed_though_its_mask_fits() -> None:
 def test_every_spelling_of_ignored_is_understood(flag: str) -> None:
     truth = document({"segmentation": disc(50, 50), flag: 1})
 
-    figures = evaluate_centres(document({"segmentation": disc(50, 50)}), truth)
+    figures = figures_of(document({"segmentation": disc(50, 50)}), truth)
 
     assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 0, 0)
 
@@ -246,17 +251,17 @@ def test_a_list_of_results_goes_by_the_other_side_s_image_ids() -> None:
     truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
     results = [{"image_id": 7, "category_id": 1, "score": 0.9, "segmentation": disc(50, 50)}]
 
-    assert evaluate_centres(results, truth)["matched"] == 1
-    assert evaluate_centres(truth, results)["matched"] == 1
+    assert figures_of(results, truth)["matched"] == 1
+    assert figures_of(truth, results)["matched"] == 1
     with pytest.raises(DocumentError, match="sizes are needed"):
-        evaluate_centres(results, results)
+        figures_of(results, results)
 
 
 def test_only_the_truth_s_images_count() -> None:
     truth = document({"segmentation": disc(50, 50), "center": [50, 50]})
     elsewhere = document({"segmentation": disc(50, 50)}, name="other.jpg")
 
-    figures = evaluate_centres(elsewhere, truth)
+    figures = figures_of(elsewhere, truth)
 
     assert (figures["matched"], figures["missed"], figures["extra"]) == (0, 1, 0)
 
@@ -279,7 +284,7 @@ def of_another_size() -> dict[str, Any]:
         (None, "neither a COCO file"),
         ({"images": {}}, "neither a COCO file"),
         ([{"segmentation": []}], "which image"),
-        (two_images_of_one_name(), "base file names must differ"),
+        (two_images_of_one_name(), "Another image of this file is called a.jpg too"),
         (of_another_size(), "different sizes"),
         (document({"segmentation": [[1, 1, 5, 5]]}), "Annotation 1 of a.jpg: .*three points"),
         (document({"segmentation": None}), "Annotation 1 of a.jpg"),
@@ -291,7 +296,7 @@ def of_another_size() -> dict[str, Any]:
 )
 def test_what_cannot_be_evaluated_is_refused_with_its_place(predicted: Any, reason: str) -> None:
     with pytest.raises(FairyringError, match=reason):
-        evaluate_centres(predicted, document({"segmentation": disc(50, 50)}))
+        figures_of(predicted, document({"segmentation": disc(50, 50)}))
 
 
 def test_pairing_by_id_needs_ids_that_differ() -> None:
@@ -299,6 +304,6 @@ def test_pairing_by_id_needs_ids_that_differ() -> None:
     twice = document({"center": [1, 1]}, {"center": [2, 2], "id": 1})
 
     with pytest.raises(DocumentError, match="an id each"):
-        evaluate_centres(twice, truth, by="id")
+        figures_of(twice, truth, by="id")
     with pytest.raises(DocumentError, match="an id each"):
-        evaluate_centres([{"image_id": 7, "center": [1, 1]}], truth, by="id")
+        figures_of([{"image_id": 7, "center": [1, 1]}], truth, by="id")

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.evaluate.pages import CapRecord
+from fairyring.model.evaluate.caps import CapRecord
 from tests.support.squares import cap, scores
 
 

@@ -1,4 +1,4 @@
-"""Validation: a network's predictions and the labels as documents, and their figures."""
+"""Validation: a network's predictions beside the labels, and their figures."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.calibration import Calibration
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.train.data import Example, read_rgb
-from fairyring.model.train.validate import document_of_detections, document_of_labels, validate
+from fairyring.model.train.validate import page_of, validate
 from tests.support.discs import DISCS
 from tests.unit.model.conftest import Learnt
 
@@ -40,19 +40,17 @@ def test_trained_weights_carry_the_calibration_that_fits_them(learnt: Learnt) ->
     assert network.calibration.tolist() == pytest.approx(list(expected), rel=0.05)
 
 
-def test_labels_and_detections_become_documents(learnt: Learnt) -> None:
+def test_labels_and_detections_are_compared_as_masks(learnt: Learnt) -> None:
     predictor = Predictor(load_weights(learnt.result.weights).network, device=CPU)
-    labels = document_of_labels(learnt.examples)
-    assert [image["id"] for image in labels["images"]] == [1, 2]
-    assert [cap["image_id"] for cap in labels["annotations"]] == [1] * 4 + [2] * 4
-    for cap, (_, _, r) in zip(labels["annotations"], [*DISCS[0], *DISCS[1]], strict=True):
-        area = pycocotools_mask.area(cap["segmentation"])  # pyright: ignore
-        assert area == pytest.approx(math.pi * r**2, rel=0.02)
-        assert cap["ignore"] is False
-    found = [predictor.detect(read_rgb(example.path)) for example in learnt.examples]
-    told = document_of_detections(learnt.examples, found)
-    assert len(told["annotations"]) == sum(map(len, found))
-    assert [cap["score"] for cap in told["annotations"]] == [one.score for some in found for one in some]
+    for example, discs in zip(learnt.examples, DISCS, strict=True):
+        found = predictor.detect(read_rgb(example.path))
+        page = page_of(example, found)
+        assert (page.file_name, page.width, page.height) == (example.path.name, example.width, example.height)
+        for cap, (_, _, r) in zip(page.truths, discs, strict=True):
+            area = pycocotools_mask.area(cap.rle)  # pyright: ignore
+            assert area == pytest.approx(math.pi * r**2, rel=0.02)
+            assert not cap.ignored
+        assert [cap.score for cap in page.predictions] == [detection.score for detection in found]
 
 
 def test_ignored_regions_and_groups_are_told(learnt: Learnt) -> None:
@@ -60,8 +58,6 @@ def test_ignored_regions_and_groups_are_told(learnt: Learnt) -> None:
     example = Example(
         path=one.path, width=128, height=128, caps=one.caps[:1], ignored=one.caps[1:], light="top", form="d"
     )
-    document = document_of_labels([example, example])
-    assert [cap["ignore"] for cap in document["annotations"]] == [False, True, True, True] * 2
-    assert [(image["light"], image["form"]) for image in document["images"]] == [("top", "d")] * 2
-    # Two photos of one name stay two.
-    assert len({image["file_name"] for image in document["images"]}) == 2
+    page = page_of(example, [])
+    assert [cap.ignored for cap in page.truths] == [False, True, True, True]
+    assert (page.light, page.form) == ("top", "d")

@@ -1,0 +1,20 @@
+"""COCO documents: read in one way and written in one way, whoever asks.
+
+Our own keys of an annotation, beside COCO's:
+
+``center`` [x, y], ``circle`` [cx, cy, r], ``ellipse`` [cx, cy, a, b, theta_deg]
+    A person's mark, unless ``marked`` is false, or the annotation carries a ``score`` or a ``center_sd``:
+    then a machine worked them out. Where both are given, the circle counts.
+``mark``
+    The polygon [x0, y0, …] a person marked; ``ellipse`` is then the one fitted to it.
+``segmentation_of``
+    ``"mark"`` where the visible outline is unknown and the polygons were drawn from the mark.
+``amodal_segmentation``
+    The whole outline as a polygon; one alone, without circle or ellipse, is taken as a marked polygon.
+``doubt``, ``ignored``, ``ignore``, ``order``, ``uid``
+    Flags, overlap order, and the annotation's own number.
+``refusal``
+    Why a machine found no centre.
+
+A key that is null is a key that is missing.
+"""

@@ -1,0 +1,137 @@
+"""What an annotation of a COCO document says, key by key.
+
+An annotation is the dictionary that the file holds. Every function reads the keys it is about, so that a
+reader is held up by what it needs alone, and raises ValueRefusedError where they hold something else.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fairyring.model.coco.ids import Id, id_of
+from fairyring.model.geometry.shapes import (
+    Centre,
+    Circle,
+    Polygon,
+    Shape,
+    canonical_ellipse,
+    polygon_of_shape,
+)
+from fairyring.model.json_values import ValueRefusedError, flag, number, numbers
+
+Entry = dict[str, Any]
+Segmentation = list[Any] | dict[str, Any]
+"""Parts of an outline, or an RLE; neither checked yet."""
+
+IGNORED = ("iscrowd", "ignore", "ignored")
+DOUBTFUL = ("doubt", "doubtful")
+
+
+def own_id(entry: Entry) -> Id | None:
+    """None where it has none that could be compared."""
+    return id_of(entry.get("id"))
+
+
+def segmentation_of(entry: Entry) -> Segmentation | None:
+    """Its parts, one flat list being one part, or its RLE; None where nothing is seen or drawn."""
+    value = entry.get("segmentation")
+    if value is None or value == []:
+        return None
+    if isinstance(value, dict):
+        return value
+    if not isinstance(value, list):
+        raise ValueRefusedError("Its segmentation is neither a list of polygons nor an RLE.")
+    return parts_of(value)
+
+
+def drawn_of(entry: Entry) -> Segmentation | None:
+    """What is seen of it; where the file does not say, its whole outline as a polygon."""
+    segmentation = segmentation_of(entry)
+    if segmentation is not None:
+        return segmentation
+    shape, mark = shape_of(entry), mark_of(entry)
+    if shape is not None:
+        return [polygon_of_shape(shape)]
+    return None if mark is None else [mark.points]
+
+
+def parts_of(polygons: list[Any]) -> list[Any]:
+    """A list of parts; a flat list of coordinates is one part."""
+    return polygons if isinstance(polygons[0], list) else [polygons]
+
+
+def shape_of(entry: Entry) -> Shape | None:
+    """The whole outline it states, the circle before the ellipse; finite, and not checked any further."""
+    if entry.get("circle") is not None:
+        return Circle(*numbers(entry["circle"], "Its circle", count=3))
+    if entry.get("ellipse") is not None:
+        return canonical_ellipse(*numbers(entry["ellipse"], "Its ellipse", count=5))
+    return None
+
+
+def centre_of(entry: Entry) -> Centre | None:
+    """The centre it states in so many words."""
+    if entry.get("center") is None:
+        return None
+    x, y = numbers(entry["center"], "Its center", count=2)
+    return x, y
+
+
+def mark_of(entry: Entry) -> Polygon | None:
+    """The polygon a person marked: ``mark``, else a whole outline that is one polygon and no other shape."""
+    mark = entry.get("mark")
+    if mark is not None and not isinstance(mark, list):
+        raise ValueRefusedError("Its mark is not a polygon.")
+    if mark:
+        return Polygon(mark)
+    whole = entry.get("amodal_segmentation")
+    if not isinstance(whole, list) or not whole or shape_of(entry) is not None:
+        return None
+    parts = parts_of(whole)
+    return Polygon(parts[0]) if len(parts) == 1 else None
+
+
+def is_marked(entry: Entry) -> bool:
+    """Whether a person placed its shape and centre, rather than a machine."""
+    if entry.get("marked") is not None:
+        return flag(entry["marked"], "marked")
+    # A machine that does not know how sure it is says so: center_sd is there, and null.
+    return entry.get("score") is None and "center_sd" not in entry
+
+
+def is_ignored(entry: Entry) -> bool:
+    """Whether it counts neither way, in any of COCO's and our spellings."""
+    return True in [flag(entry.get(key), key) for key in IGNORED]
+
+
+def is_crowd(entry: Entry) -> bool:
+    """Whether it is a region of several caps."""
+    return flag(entry.get("iscrowd"), "iscrowd")
+
+
+def is_doubtful(entry: Entry) -> bool:
+    """Whether somebody doubts it."""
+    return True in [flag(entry.get(key), key) for key in DOUBTFUL]
+
+
+def score_of(entry: Entry) -> float | None:
+    """How sure a model was; None where nobody says, as of a cap that a person drew."""
+    return None if entry.get("score") is None else number(entry["score"], "Its score")
+
+
+def box_of(entry: Entry) -> tuple[float, float, float, float] | None:
+    """x, y, width and height of its bbox, pixels."""
+    if entry.get("bbox") is None:
+        return None
+    x, y, width, height = numbers(entry["bbox"], "Its bbox", count=4)
+    return x, y, width, height
+
+
+def order_of(entry: Entry) -> int | None:
+    """Its rank in the overlap order; a cap of higher order lies in front."""
+    order = entry.get("order")
+    if type(order) is float and order.is_integer():
+        order = int(order)
+    if order is not None and type(order) is not int:
+        raise ValueRefusedError("“order” is not a whole number.")
+    return order

@@ -1,0 +1,48 @@
+"""What a cap may be: the categories a COCO document lists."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fairyring.model.coco.document import Document
+from fairyring.model.coco.ids import Id, id_of
+from fairyring.model.json_values import ValueRefusedError, shown
+
+DEFAULT_CATEGORY = "mushroom"
+"""Of every cap that nobody called anything else."""
+MOST_LETTERS = 200
+
+
+def listed_categories(document: Document) -> dict[Id, dict[str, Any]]:
+    """All keys of each, by id; of several with one id the first."""
+    entries = document.others.get("categories")
+    listed: dict[Id, dict[str, Any]] = {}
+    for entry in entries if isinstance(entries, list) else ():
+        own = id_of(entry.get("id")) if isinstance(entry, dict) else None
+        if own is not None:
+            listed.setdefault(own, entry)
+    return listed
+
+
+def name_of_category(entry: dict[str, Any]) -> str:
+    """Its name. Raises ValueRefusedError where that is no short printable line."""
+    name = entry.get("name")
+    if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= MOST_LETTERS:
+        raise ValueRefusedError(f"The name of category {shown(entry.get('id'))} is no short line of text.")
+    return name
+
+
+def category_of(entry: dict[str, Any], listed: dict[Id, dict[str, Any]]) -> str:
+    """The name of an annotation's category; the default one in a document that lists none.
+
+    An annotation that names none is of the only category there is. Raises ValueRefusedError.
+    """
+    if not listed:
+        return DEFAULT_CATEGORY
+    given = entry.get("category_id")
+    if given is None and len(listed) == 1:
+        return name_of_category(next(iter(listed.values())))
+    own = id_of(given)
+    if own is None or own not in listed:
+        raise ValueRefusedError(f"There is no category {shown(given)}.")
+    return name_of_category(listed[own])

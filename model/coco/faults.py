@@ -1,0 +1,46 @@
+"""What is wrong with one item of a document, and what is done about it.
+
+Every reader of a document goes through its items alike and differs in one thing only, the function that
+hears of a fault: an import collects them (``faults.append``), an evaluation stops at the first (the function
+raises), ``fairyring contour`` keeps the annotation with the fault as its refusal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from msgspec import Struct
+
+from fairyring.model.coco.ids import id_of
+from fairyring.model.errors import FairyringError
+from fairyring.model.json_values import shown
+
+
+class Fault(Struct, frozen=True):
+    """Why one item cannot be taken as it stands."""
+
+    where: str
+    """For example ``annotation 12``."""
+    reason: str
+    """A sentence."""
+
+
+Report = Callable[[Fault], None]
+"""Hears of every fault; what it raises ends the reading."""
+
+
+@contextmanager
+def reported(where: str, report: Report) -> Iterator[None]:
+    """Tells ``report`` what is wrong with the item that the block reads, in place of raising it."""
+    try:
+        yield
+    except FairyringError as error:
+        report(Fault(where, str(error)))
+
+
+def place_of(kind: str, entry: Any, index: int) -> str:
+    """``annotation 12`` by its id; where it has none, ``annotation at place 3``, counted from 1."""
+    own = id_of(entry.get("id")) if isinstance(entry, dict) else None
+    return f"{kind} at place {index + 1}" if own is None else f"{kind} {shown(own)}"

@@ -1,0 +1,71 @@
+"""The images of a COCO document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msgspec import Struct
+
+from fairyring.model.coco.document import Document, objects_of
+from fairyring.model.coco.faults import Report, reported
+from fairyring.model.coco.ids import Id, id_of
+from fairyring.model.json_values import ValueRefusedError, base_name, size
+
+
+class ImageEntry(Struct, frozen=True, kw_only=True):
+    """One image, its keys otherwise unread."""
+
+    id: Id
+    where: str
+    """As a ``Fault`` names it."""
+    width: int | None
+    """Pixels; None where the file does not say."""
+    height: int | None
+    keys: dict[str, Any]
+    """All of them, as the file has them."""
+
+
+def read_images(document: Document, *, report: Report) -> dict[Id, ImageEntry]:
+    """By id; of several images with one id the first. ``report`` hears of those that make no sense."""
+    images: dict[Id, ImageEntry] = {}
+    for _, where, entry in objects_of("image", document.images or (), report=report):
+        with reported(where, report):
+            image = _read(entry, where)
+            if image.id in images:
+                raise ValueRefusedError("Another image has this id; only the first is taken.")
+            images[image.id] = image
+    return images
+
+
+def by_base_name(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, ImageEntry]:
+    """By base file name; of several of one name the first. ``report`` hears of all others."""
+    named: dict[str, ImageEntry] = {}
+    for image in images.values():
+        with reported(image.where, report):
+            name = base_name(image.keys.get("file_name"))
+            if name in named:
+                raise ValueRefusedError(
+                    f"Another image of this file is called {name} too, in another folder; rename one."
+                )
+            named[name] = image
+    return named
+
+
+def size_of(image: ImageEntry) -> tuple[int, int]:
+    """Width and height, pixels. Raises ValueRefusedError where the file lacks one."""
+    if image.width is None or image.height is None:
+        raise ValueRefusedError("The file does not say how wide and high it is.")
+    return image.width, image.height
+
+
+def _read(entry: dict[str, Any], where: str) -> ImageEntry:
+    own = id_of(entry.get("id"))
+    if own is None:
+        raise ValueRefusedError("The id is missing or neither a whole number nor text.")
+    return ImageEntry(
+        id=own,
+        where=where,
+        width=size(entry.get("width"), "The width"),
+        height=size(entry.get("height"), "The height"),
+        keys=entry,
+    )

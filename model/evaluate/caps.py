@@ -1,0 +1,115 @@
+"""One cap, true or predicted, as evaluation reads it from an annotation: its mask, centre and diameter."""
+
+from __future__ import annotations
+
+from msgspec import Struct
+
+from fairyring.model.coco.annotations import (
+    Entry,
+    box_of,
+    centre_of,
+    drawn_of,
+    is_ignored,
+    own_id,
+    score_of,
+    shape_of,
+)
+from fairyring.model.coco.ids import Id
+from fairyring.model.coco.visible import outline_in, rle_in
+from fairyring.model.contour.marks import whole_of_mark
+from fairyring.model.geometry.mask_tracing import rim_of_mask
+from fairyring.model.geometry.outline_checks import check_centre, check_mark
+from fairyring.model.geometry.raster import Rle, area_of_rle, rle_of_outline
+from fairyring.model.geometry.rle import checked_counts, cut_of_counts
+from fairyring.model.geometry.shapes import (
+    Centre,
+    Outline,
+    Polygon,
+    Shape,
+    centre_of_shape,
+    diameter_of_shape,
+    part_of_points,
+)
+from fairyring.model.json_values import ValueRefusedError
+
+
+class CapRecord(Struct, frozen=True, kw_only=True):
+    """One cap, true or predicted, as far as evaluation is concerned."""
+
+    id: Id | None = None
+    rle: Rle | None = None
+    """Visible pixels; None where caps are paired by id."""
+    score: float = 1.0
+    """Of a prediction; finite."""
+    centre: Centre | None = None
+    """None where nobody marked it, or a method refused it."""
+    diameter: float | None = None
+    """Pixels, of the whole cap."""
+    ignored: bool = False
+    """Truth only: the cap counts neither way."""
+
+
+def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool) -> CapRecord:
+    """The cap of an annotation in an image of this size.
+
+    Without ``masks`` its segmentation is not read; without ``centres`` it has no centre, and a diameter only
+    where a circle or an ellipse is stated. Where no visible outline is stated, the whole one is its mask.
+    Raises FairyringError, which does not say which annotation it is.
+    """
+    whole, score = _checked_shape(entry, width=width, height=height), score_of(entry)
+    outline, rle = _mask(entry, width=width, height=height) if masks else (None, None)
+    if centres and whole is None and not entry.get("refusal"):
+        whole = _fitted(outline, rle)
+    return CapRecord(
+        id=own_id(entry),
+        rle=rle,
+        # A shape without a score was drawn by somebody who was sure.
+        score=1.0 if score is None else score,
+        centre=_centre(entry, whole, width=width, height=height) if centres else None,
+        diameter=diameter_of_shape(whole) if whole else _longer_side(entry) if centres else None,
+        ignored=is_ignored(entry),
+    )
+
+
+def _checked_shape(entry: Entry, *, width: int, height: int) -> Shape | None:
+    shape = shape_of(entry)
+    if shape is not None:
+        check_mark(shape, width=width, height=height)
+    return shape
+
+
+def _mask(entry: Entry, *, width: int, height: int) -> tuple[Outline | None, Rle]:
+    """As polygons, None where the file has an RLE, and as RLE."""
+    drawn = drawn_of(entry)
+    if drawn is None:
+        raise ValueRefusedError("It has neither a visible outline nor a circle or an ellipse.")
+    if isinstance(drawn, dict):
+        return None, rle_in(drawn, width=width, height=height)
+    outline = outline_in(drawn, width=width, height=height)
+    return outline, rle_of_outline(outline, width=width, height=height)
+
+
+def _fitted(outline: Outline | None, rle: Rle | None) -> Shape | None:
+    """The ellipse fitted to the polygon's vertices, of all its parts together, or to the rim of an RLE."""
+    if outline is not None:
+        return whole_of_mark(Polygon([figure for part in outline for figure in part]))
+    if rle is None or area_of_rle(rle) == 0:
+        return None
+    height, _, counts = checked_counts(rle)
+    cut, corner = cut_of_counts(height, counts)
+    return whole_of_mark(Polygon(part_of_points(rim_of_mask(cut) + corner)))
+
+
+def _centre(entry: Entry, whole: Shape | None, *, width: int, height: int) -> Centre | None:
+    if entry.get("refusal"):
+        return None
+    stated = centre_of(entry)
+    if stated is not None:
+        return check_centre(stated, width=width, height=height)
+    return None if whole is None else centre_of_shape(whole)
+
+
+def _longer_side(entry: Entry) -> float | None:
+    """Of its bbox: of a cap that is partly hidden, more often than not still its diameter."""
+    box = box_of(entry)
+    return max(box[2:]) if box and max(box[2:]) > 0 else None
