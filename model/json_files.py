@@ -21,8 +21,8 @@ GZIP = b"\x1f\x8b"
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 MOST_BYTES = 4 << 30
 """No file is unzipped beyond this: a few kilobytes can hold any number of zeros."""
-MOST_DIGITS = 400
-"""A whole number with more is beyond every float and comes through as infinity."""
+MOST_DIGITS = 4300
+"""A whole number with more, which Python would not read, comes through as infinity."""
 
 
 class JsonError(FairyringError):

@@ -11,7 +11,7 @@ from fairyring.model.coco.annotations import Entry, is_crowd, segmentation_of
 from fairyring.model.coco.document import Document, Item, annotations_by_image, value_of
 from fairyring.model.coco.faults import Fault, place_of, reported
 from fairyring.model.coco.images import ImageEntry, read_images
-from fairyring.model.coco.visible import outline_in, counts_in
+from fairyring.model.coco.visible import counts_in, outline_in
 from fairyring.model.coco.writing import rounded, shape_keys
 from fairyring.model.contour.methods import DEFAULT_METHOD
 from fairyring.model.contour.priors import DEFAULT, Priors
