@@ -37,7 +37,6 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
 from fairyring.storage.records import Cap
 
-
 IMAGE_KEYS = {"id", "file_name", "width", "height", "light", "form", "split", "license"}
 CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fairyring.app.bench.worst import COLUMNS, PANEL, draw_worst
-from fairyring.app.commands.files import FileError
+from fairyring.model.errors import FileError
 from fairyring.model.geometry.shapes import Circle, polygon_of_shape
 
 TRUTH = (0, 255, 255)

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.bench.contour import contour_rows, measured_by_coverage
 from fairyring.app.commands import contour, evaluate
-from fairyring.app.commands.files import FileError
+from fairyring.model.errors import FileError
 from fairyring.model.geometry.shapes import Circle, polygon_of_shape
 
 commands = typer.Typer()

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fairyring.app.cli import app
-from fairyring.app.commands.files import FileError
+from fairyring.model.errors import FileError
 
 
 def bed(*corners: int, **annotation: Any) -> dict[str, Any]:
