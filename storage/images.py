@@ -145,9 +145,9 @@ def set_status(connection: Connection, image_id: int, status: Status, *, user: s
     return get_image(connection, image_id)
 
 
-def keep_figures(connection: Connection, image_id: int, figures: Mapping[str, float]) -> None:
+def keep_statistics(connection: Connection, image_id: int, statistics: Mapping[str, float]) -> None:
     """Stores what was measured on the masks of an image."""
-    connection.execute(update(image).where(image.c.id == image_id).values(figures=dict(figures)))
+    connection.execute(update(image).where(image.c.id == image_id).values(statistics=dict(statistics)))
 
 
 def sort_name(file_name: str) -> str:

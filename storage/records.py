@@ -37,7 +37,7 @@ class Image(Struct, frozen=True, kw_only=True):
     form: str | None = None
     split: str | None = None
     status: Status = "new"
-    figures: dict[str, float] | None = None
+    statistics: dict[str, float] | None = None
     """What was measured on its masks, by which all its caps are fitted; None until that was done."""
     extra: dict[str, Any] = field(default_factory=dict)
     """Keys of an imported file that this version does not know, kept for the export."""

@@ -8,20 +8,20 @@ from typing import TypeVar
 from msgspec.structs import replace
 from sqlalchemy import Connection
 
-from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.fitting import Fitting, known_statistics
 from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.caps.whole_outlines import fit_of_mark
 from fairyring.model.geometry.shapes import Fit
 from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
 from fairyring.storage.contents import load_contents, load_predictions
-from fairyring.storage.images import keep_figures
+from fairyring.storage.images import keep_statistics
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image, Outline
 
 Key = TypeVar("Key")
 MOSTLY_NEW = 0.5
-"""An image's figures are measured anew where more than this share of its caps is to be fitted."""
+"""An image's statistics are measured anew where more than this share of its caps is to be fitted."""
 
 
 def fill_in(project: Project, image_ids: Sequence[int] | None = None, *, progress: Progress = silent) -> int:
@@ -51,17 +51,17 @@ def _fill_in_image(project: Project, image_id: int) -> int:
     of_run = _fitting(image, lacking.predictions, said)
     predictions = _fits(of_run, said, lacking.predictions)
     if predictions:
-        image = replace(image, figures=of_run.figures)
+        image = replace(image, statistics=of_run.statistics)
     of_all = _fitting(image, unmarked if contents.run is None else (), caps.visible)
     annotations = _fits(of_all, caps.visible, unmarked)
     if annotations:
-        image = replace(image, figures=of_all.figures)
+        image = replace(image, statistics=of_all.statistics)
     marks = {uid: mark for uid in lacking.annotations if (mark := caps.annotations[uid].cap.mark) is not None}
     annotations |= {uid: fit_of_mark(mark).fit for uid, mark in marks.items()}
 
     def store(connection: Connection) -> int:
-        if image.figures is not None:
-            keep_figures(connection, image_id, image.figures)
+        if image.statistics is not None:
+            keep_statistics(connection, image_id, image.statistics)
         return derived.store_derived(
             connection,
             image_id,
@@ -73,8 +73,8 @@ def _fill_in_image(project: Project, image_id: int) -> int:
 
 
 def _fitting(image: Image, lacking: Sized, visible: Sized) -> Fitting:
-    """The fitting of an image: by figures measured anew where most caps are new, else by known ones."""
-    return Fitting(image, None if len(lacking) > MOSTLY_NEW * len(visible) else known_figures(image))
+    """The fitting of an image: by statistics measured anew where most caps are new, else by known ones."""
+    return Fitting(image, None if len(lacking) > MOSTLY_NEW * len(visible) else known_statistics(image))
 
 
 def _fits(fitting: Fitting, visible: Mapping[Key, Outline], wanted: Sequence[Key]) -> dict[Key, Fit]:

@@ -9,11 +9,11 @@ from threading import Lock
 
 import msgspec
 
-from fairyring.model.contour.figures import Figures, usual_figures
 from fairyring.model.contour.fitted_image import fitted_image
 from fairyring.model.contour.priors import DEFAULT
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
+from fairyring.model.contour.statistics import Statistics, usual_statistics
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
@@ -26,17 +26,17 @@ class Fitting:
     Outlines are never changed in place: the same list is the same outline. Several threads may ask.
     """
 
-    def __init__(self, image: Image, figures: Figures | None) -> None:
-        """Fits by these figures; None measures them on the outlines that are first visible."""
+    def __init__(self, image: Image, statistics: Statistics | None) -> None:
+        """Fits by these statistics; None measures them on the outlines that are first visible."""
         self._image = image
         self._silhouettes: dict[int, tuple[Outline, Silhouette]] = {}
-        self._latest = fitted_image([], width=image.width, height=image.height, figures=figures)
+        self._latest = fitted_image([], width=image.width, height=image.height, statistics=statistics)
         self._lock = Lock()
 
     @property
-    def figures(self) -> dict[str, float]:
-        """The figures it fits by, to be kept as ``image.figures``."""
-        return asdict(self._latest.figures)
+    def statistics(self) -> dict[str, float]:
+        """The statistics it fits by, to be kept as ``image.statistics``."""
+        return asdict(self._latest.statistics)
 
     def reconstructions(
         self, wanted: Sequence[Outline], *, visible: Collection[Outline]
@@ -57,8 +57,8 @@ class Fitting:
         return known[1]
 
 
-def known_figures(image: Image) -> Figures:
-    """The figures measured on an image; the usual ones where there are none, or those of another version."""
+def known_statistics(image: Image) -> Statistics:
+    """The statistics measured on an image; the usual ones where there are none, or those of another version."""
     with suppress(msgspec.ValidationError):
-        return msgspec.convert(image.figures, Figures)
-    return usual_figures(DEFAULT)
+        return msgspec.convert(image.statistics, Statistics)
+    return usual_statistics(DEFAULT)

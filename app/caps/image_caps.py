@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.fitting import Fitting, known_statistics
 from fairyring.storage.records import Annotation, Image, ImageContents, Outline, Prediction
 
 
@@ -44,7 +44,7 @@ class ImageCaps:
 def caps_of(contents: ImageContents) -> ImageCaps:
     """The caps of an image as the store has them."""
     annotations = {annotation.uid: annotation for annotation in contents.annotations}
-    fitting = Fitting(contents.image, known_figures(contents.image))
+    fitting = Fitting(contents.image, known_statistics(contents.image))
     return ImageCaps(contents.image, annotations, contents.predictions, fitting)
 
 

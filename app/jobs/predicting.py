@@ -24,7 +24,7 @@ from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.progress import Progress, silent
-from fairyring.storage.images import get_image, keep_figures
+from fairyring.storage.images import get_image, keep_statistics
 from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
@@ -117,11 +117,11 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new, figures = _predictions_of(network, project, image)
+            new, statistics = _predictions_of(network, project, image)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
-        project.write(partial(run.store, image_id=image.id, new=new, figures=figures))
+        project.write(partial(run.store, image_id=image.id, new=new, statistics=statistics))
         outcome.images += 1
         outcome.caps += len(new)
         predicted(image.id)
@@ -148,7 +148,7 @@ class _Run:
         *,
         image_id: int,
         new: Sequence[NewPrediction],
-        figures: Mapping[str, float],
+        statistics: Mapping[str, float],
     ) -> None:
         """Stores an image's predictions; to be called within ``Project.write``."""
         if self._id is None:
@@ -158,13 +158,13 @@ class _Run:
             )
             self._id = run.id
         add_predictions(connection, run_id=self._id, image_id=image_id, predictions=new)
-        keep_figures(connection, image_id, figures)
+        keep_statistics(connection, image_id, statistics)
 
 
 def _predictions_of(
     network: Network, project: Project, image: Image
 ) -> tuple[list[NewPrediction], dict[str, float]]:
-    """What the network sees in a photo, and the figures by which its caps were fitted."""
+    """What the network sees in a photo, and the statistics by which its caps were fitted."""
     pixels = photo.read(project.originals.path_of(image))
     found = [
         (detection.score, outline)
@@ -178,7 +178,7 @@ def _predictions_of(
         _prediction(nth, score, outline, whole.fit)
         for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
     ]
-    return new, fitting.figures
+    return new, fitting.statistics
 
 
 def _prediction(nth: int, score: float, outline: Outline, fit: Fit) -> NewPrediction:

@@ -22,7 +22,7 @@ _KINDS: tuple[ArcKind, ...] = ("visible", "hidden", "border", "concave")
 def kinds_of(together: Together) -> NDArray[np.int_]:
     """(n, K), what each rim point is, as an index into visible, hidden, border, concave."""
     contact = together.contact
-    hollow = together.look.estimate.residual < -max(LEAST_HOLLOW, HOLLOW * together.figures.noise)
+    hollow = together.look.estimate.residual < -max(LEAST_HOLLOW, HOLLOW * together.statistics.noise)
     kinds = np.zeros(contact.neighbour.shape, np.int64)
     kinds[(contact.neighbour >= 0) & (together.look.own < 0.5)] = 1
     kinds[contact.border] = 2

@@ -23,7 +23,7 @@ class Contact:
     """What lies outside each of n × K points."""
 
     neighbour: NDArray[np.int_]
-    """(n, K), place of the nearest other cap among those at hand; else `NOBODY` or `ELSEWHERE`."""
+    """(n, K), index of the nearest other cap among those at hand; else `NOBODY` or `ELSEWHERE`."""
     border: NDArray[np.bool_]
     """(n, K), whether the image ends here."""
 
@@ -52,18 +52,18 @@ def contact_of(rims: Rims, caps: Sequence[Silhouette], *, width: int, height: in
 
 
 def _labels(caps: Sequence[Silhouette], at: NDArray[np.int64]) -> tuple[NDArray[np.int32], int, int]:
-    """A map of who is seen where (place + 1, 0 nobody) around the pixels ``at`` (…, 2), with its corner.
+    """A map of who is seen where (index + 1, 0 nobody) around the pixels ``at`` (…, 2), with its corner.
 
     Where two overlap the smaller one is seen, whatever their order.
     """
     (left, top), (right, bottom) = at.min(axis=(0, 1, 2)), at.max(axis=(0, 1, 2)) + 1
     labels = np.zeros((bottom - top, right - left), np.int32)
-    smaller_later = sorted(range(len(caps)), key=lambda place: (-caps[place].pixels, caps[place].content))
-    for place in smaller_later:
-        x0, y0, x1, y1 = caps[place].box
+    smaller_later = sorted(range(len(caps)), key=lambda index: (-caps[index].pixels, caps[index].content))
+    for index in smaller_later:
+        x0, y0, x1, y1 = caps[index].box
         x, y = max(x0, left), max(y0, top)
         columns, rows = min(x1, right) - x, min(y1, bottom) - y
         if columns > 0 and rows > 0:
-            seen = caps[place].mask[y - y0 : y - y0 + rows, x - x0 : x - x0 + columns].view(np.bool_)
-            np.copyto(labels[y - top : y - top + rows, x - left : x - left + columns], place + 1, where=seen)
+            seen = caps[index].mask[y - y0 : y - y0 + rows, x - x0 : x - x0 + columns].view(np.bool_)
+            np.copyto(labels[y - top : y - top + rows, x - left : x - left + columns], index + 1, where=seen)
     return labels, int(left), int(top)

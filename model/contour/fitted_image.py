@@ -1,7 +1,7 @@
 """The caps of an image, fitted together: the one place where whole outlines are worked out.
 
 All caps, some, or one with another outline: each answer is, to the last digit, what fitting the whole image
-with these outlines and these figures gives, in whatever order they come.
+with these outlines and these statistics gives, in whatever order they come.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from collections.abc import Iterable, Sequence
 from threading import RLock
 
 from fairyring.model.contour.batch import first_caps, joined, single_caps
-from fairyring.model.contour.figures import Figures, measured_figures, usual_figures
 from fairyring.model.contour.guarded import reconstructions_of
 from fairyring.model.contour.layout import Layout, changed_layout, empty_layout
 from fairyring.model.contour.order import meetings_of, overlap_order
 from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.result import UNSEEN, Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.contour.statistics import Statistics, measured_statistics, usual_statistics
 from fairyring.model.contour.together import (
     LOOKS,
     Look,
@@ -28,26 +28,26 @@ from fairyring.model.contour.together import (
 
 
 class FittedImage:
-    """The silhouettes of an image, what they touch, the image's figures, and the looks taken so far.
+    """The silhouettes of an image, what they touch, the image's statistics, and the looks taken so far.
 
-    It never changes: `with_caps` makes another one, of the same figures, which shares what holds for both.
+    It never changes: `with_caps` makes another one, of the same statistics, which shares what holds for both.
     Looks are taken when they are first asked for, and remembered. Several threads may ask.
     """
 
-    def __init__(self, layout: Layout, priors: Priors, figures: Figures | None = None) -> None:
+    def __init__(self, layout: Layout, priors: Priors, statistics: Statistics | None = None) -> None:
         self._layout = layout
         self._priors = priors
-        self._figures = figures
+        self._statistics = statistics
         self._looks: list[dict[Silhouette, Look]] = [{} for _ in range(LOOKS)]
         self._lock = RLock()
 
     @property
-    def figures(self) -> Figures:
+    def statistics(self) -> Statistics:
         """Those given, else measured on the caps this was first made with; the usual ones before that."""
         with self._lock:
-            if self._figures is None and self._layout.caps:
-                self._figures = self._measured()
-            return self._figures or usual_figures(self._priors)
+            if self._statistics is None and self._layout.caps:
+                self._statistics = self._measured()
+            return self._statistics or usual_statistics(self._priors)
 
     def with_caps(self, caps: Iterable[Silhouette]) -> FittedImage:
         """The image as it is with these caps and no others; those with nothing to see are left out."""
@@ -72,7 +72,7 @@ class FittedImage:
         in_sight = [*caps, *self._neighbours(caps)]
         rims, contact = self._layout.batch(in_sight)
         rims, contact = first_caps(rims, caps=len(caps)), first_caps(contact, caps=len(caps))
-        return Together(rims, contact, in_sight, look, self.figures, enclosing_circles(rims, self._priors))
+        return Together(rims, contact, in_sight, look, self.statistics, enclosing_circles(rims, self._priors))
 
     def overlap_order(self) -> dict[Silhouette, tuple[int, float]]:
         """How far in front every cap lies, 0 the rearmost, and how sure that is, 0.5 to 1."""
@@ -80,7 +80,7 @@ class FittedImage:
         if not caps:
             return {}
         together = self.together(caps)
-        noise = together.figures.noise
+        noise = together.statistics.noise
         meetings = meetings_of(together.contact, together.rims, together.look.estimate, noise=noise)
         rank, confidence = overlap_order(meetings, caps=len(caps))
         return dict(zip(caps, zip(rank.tolist(), confidence.tolist(), strict=True), strict=True))
@@ -97,17 +97,17 @@ class FittedImage:
             around = [*missing, *self._neighbours(missing)]
             self._take_look(nth - 1, around)
             before = joined([self._looks[nth - 1][cap] for cap in around])
-            figures = self.figures if nth == LOOKS - 1 else usual_figures(self._priors)
+            statistics = self.statistics if nth == LOOKS - 1 else usual_statistics(self._priors)
             rims, contact = self._layout.batch(around)
-            look = next_look(rims, contact, before, figures, self._priors, caps=len(missing))
+            look = next_look(rims, contact, before, statistics, self._priors, caps=len(missing))
         looks.update(zip(missing, single_caps(look, caps=len(missing)), strict=True))
 
-    def _measured(self) -> Figures:
+    def _measured(self) -> Statistics:
         """By what the last look but one says of all caps."""
         caps = self._layout.caps
         self._take_look(LOOKS - 2, caps)
         look = joined([self._looks[LOOKS - 2][cap] for cap in caps])
-        return measured_figures(*self._layout.batch(caps), look.estimate, look.own, self._priors)
+        return measured_statistics(*self._layout.batch(caps), look.estimate, look.own, self._priors)
 
     def _neighbours(self, caps: Sequence[Silhouette]) -> set[Silhouette]:
         """The caps that any of these meets, besides themselves."""
@@ -117,7 +117,7 @@ class FittedImage:
 
     def _changed(self, *, added: Sequence[Silhouette], removed: set[Silhouette]) -> FittedImage:
         layout, differ = changed_layout(self._layout, added=added, removed=removed)
-        image = FittedImage(layout, self._priors, self.figures if self._layout.caps else self._figures)
+        image = FittedImage(layout, self._priors, self.statistics if self._layout.caps else self._statistics)
         if not self._looks[0]:
             return image
         stale = differ | removed
@@ -138,7 +138,7 @@ def fitted_image(
     width: int,
     height: int,
     priors: Priors = DEFAULT,
-    figures: Figures | None = None,
+    statistics: Statistics | None = None,
 ) -> FittedImage:
-    """Of an image of this size with these caps. Its ``figures`` are measured where none are given."""
-    return FittedImage(empty_layout(width=width, height=height), priors, figures).with_caps(caps)
+    """Of an image of this size with these caps. Its ``statistics`` are measured where none are given."""
+    return FittedImage(empty_layout(width=width, height=height), priors, statistics).with_caps(caps)

@@ -56,9 +56,9 @@ class Layout:
         return touched_by.union(self.touches[cap].others)
 
     def batch(self, caps: Sequence[Silhouette]) -> tuple[Rims, Contact]:
-        """The rims of these n ≥ 1 caps, and their contact with each other, neighbours by place among them."""
-        place = {cap: at for at, cap in enumerate(caps)}
-        contacts = [_placed(self.touches[cap], place) for cap in caps]
+        """The rims of these n ≥ 1 caps, and their contact with each other, neighbours by index among them."""
+        index = {cap: at for at, cap in enumerate(caps)}
+        contacts = [_indexed(self.touches[cap], index) for cap in caps]
         return joined([self.rims[cap] for cap in caps]), joined(contacts)
 
 
@@ -99,21 +99,21 @@ def _touches(layout: Layout, caps: Sequence[Silhouette]) -> dict[Silhouette, Tou
 
 
 def _touch(contact: Contact, in_sight: Sequence[Silhouette]) -> Touch:
-    places = sorted({place for place in contact.neighbour.ravel().tolist() if place >= 0})
-    if not places:
+    found = sorted({index for index in contact.neighbour.ravel().tolist() if index >= 0})
+    if not found:
         return Touch(contact, {})
-    codes = np.full(len(in_sight) + 1, NOBODY)
-    codes[places] = np.arange(len(places))
-    others = {in_sight[place]: code for code, place in enumerate(places)}
-    return Touch(Contact(codes[contact.neighbour], contact.border), others)
+    own_index = np.full(len(in_sight) + 1, NOBODY)
+    own_index[found] = np.arange(len(found))
+    others = {in_sight[index]: own for own, index in enumerate(found)}
+    return Touch(Contact(own_index[contact.neighbour], contact.border), others)
 
 
-def _placed(touch: Touch, place: Mapping[Silhouette, int]) -> Contact:
-    """The contact with neighbours named by their place, those without one as `ELSEWHERE`."""
+def _indexed(touch: Touch, index: Mapping[Silhouette, int]) -> Contact:
+    """The contact with neighbours named by this index, those without one as `ELSEWHERE`."""
     if not touch.others:
         return touch.contact
-    places = np.array([*(place.get(other, ELSEWHERE) for other in touch.others), NOBODY])
-    return Contact(places[touch.contact.neighbour], touch.contact.border)
+    renamed = np.array([*(index.get(other, ELSEWHERE) for other in touch.others), NOBODY])
+    return Contact(renamed[touch.contact.neighbour], touch.contact.border)
 
 
 def _same(touch: Touch, before: Touch | None) -> bool:

@@ -2,8 +2,8 @@
 
 The first look fits every cap to what is surely its own rim. Each of the next two gives every border between
 two caps to the one in front, or to both where they only touch, and fits again. So what a look says of a cap
-depends on what the look before said of it and of those it meets, and of no others, but for three figures of
-the whole image that are measured after the second look (`figures.py`). `fitted_image.py` builds on that: to
+depends on what the look before said of it and of those it meets, and of no others, but for the statistics of
+the image, which are measured after the second look (`statistics.py`). `fitted_image.py` builds on that: to
 give one cap another outline takes its neighbours and theirs, not the image.
 """
 
@@ -17,13 +17,13 @@ import numpy as np
 
 from fairyring.model.contour.batch import first_caps
 from fairyring.model.contour.contact import NOBODY, Contact
-from fairyring.model.contour.figures import Figures
 from fairyring.model.contour.harmonic import Array, Estimate, Evidence, Outlines, fit_outlines
 from fairyring.model.contour.noise import FIRST_NOISE, LEAST_NOISE, expected_power
 from fairyring.model.contour.order import meetings_of, seen_share
 from fairyring.model.contour.priors import Priors
 from fairyring.model.contour.rims import Rims
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.contour.statistics import Statistics
 
 FIRST_GLANCE = 0.2
 """How probable it is that a border is one's own rim, before anything is known."""
@@ -50,10 +50,10 @@ class Together:
 
     rims: Rims
     contact: Contact
-    """Neighbours by their place in ``in_sight``."""
+    """Neighbours by their index in ``in_sight``."""
     in_sight: Sequence[Silhouette]
     look: Look
-    figures: Figures
+    statistics: Statistics
     around: Outlines
     """The circles around what is visible."""
 
@@ -88,22 +88,22 @@ def first_look(rims: Rims, contact: Contact, priors: Priors) -> Look:
 
 
 def next_look(
-    rims: Rims, contact: Contact, before: Look, figures: Figures, priors: Priors, *, caps: int
+    rims: Rims, contact: Contact, before: Look, statistics: Statistics, priors: Priors, *, caps: int
 ) -> Look:
     """Fits the first n = ``caps`` ≥ 1 of the caps given, by what the look before said of all of them.
 
     All that those n meet must be among them.
     """
-    meetings = meetings_of(contact, rims, before.estimate, noise=figures.noise)
+    meetings = meetings_of(contact, rims, before.estimate, noise=statistics.noise)
     own = seen_share(contact, meetings)[:caps]
     rims, outlines = first_caps(rims, caps=caps), first_caps(before.estimate.outlines, caps=caps)
     evidence = Evidence(
         points=rims.points,
-        weight=rims.spacing / figures.power,
+        weight=rims.spacing / statistics.power,
         seen=own,
-        noise=max(figures.noise, LEAST_NOISE),
+        noise=max(statistics.noise, LEAST_NOISE),
         size=enclosing_circles(rims, priors).log_radius + priors.size_shift,
-        stretch=figures.stretch * priors.stretch_hidden,
+        stretch=statistics.stretch * priors.stretch_hidden,
     )
     return Look(fit_outlines(evidence, outlines, priors, softness=NEXT_SOFTNESS), own)
 

@@ -47,7 +47,7 @@
  * @property {string | null} form
  * @property {string | null} split
  * @property {Status} status
- * @property {Record<string, number> | null} figures
+ * @property {Record<string, number> | null} statistics
  * @property {Record<string, unknown>} extra
  */
 

@@ -36,7 +36,7 @@ def image_of(row: AnyRow) -> Image:
         form=row.form,
         split=row.split,
         status=row.status,
-        figures=row.figures,
+        statistics=row.statistics,
         extra=row.extra,
     )
 

@@ -78,7 +78,7 @@ image = Table(
     Column("form", Text),
     Column("split", Text),
     Column("status", Text, nullable=False),
-    Column("figures", Json(dict[str, float])),
+    Column("statistics", Json(dict[str, float])),
     Column("extra", Json(dict[str, Any]), nullable=False),
     Column("added_at", Text, nullable=False),
     Column("caps", Integer, nullable=False, server_default="0"),

@@ -19,7 +19,7 @@ const IMAGE = {
   form: null,
   split: null,
   status: "new",
-  figures: null,
+  statistics: null,
   extra: {},
 };
 

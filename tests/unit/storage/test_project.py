@@ -111,6 +111,19 @@ def test_an_older_database_is_backed_up_before_it_is_migrated(project, monkeypat
     assert category_names(copy) == ["button"]
 
 
+def test_a_project_of_the_first_version_is_brought_up_to_date_and_keeps_what_it_holds(project):
+    project.write(insert_category("button"))
+    project.write(lambda connection: connection.execute(text("ALTER TABLE image DROP COLUMN statistics")))
+    project.write(
+        lambda connection: connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
+    )
+    project.close()
+    with open_project(project.folder) as upgraded, upgraded.read() as connection:
+        assert connection.execute(text("SELECT count(statistics) FROM image")).scalar_one() == 0
+    assert category_names(project.folder / "project.db") == ["button"]
+    assert category_names(project.folder / "project.db.before-0001-upgrade") == ["button"]
+
+
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
     def fail(config, _revision):
         config.attributes["connection"].execute(text("CREATE TABLE half (id INTEGER)"))

@@ -44,19 +44,19 @@ def test_filling_in_can_be_stopped_between_images(project: Project) -> None:
         assert images_with_underived(connection) == [2]
 
 
-def figures_of(project: Project, image: int) -> dict[str, float] | None:
+def statistics_of(project: Project, image: int) -> dict[str, float] | None:
     with project.read() as connection:
-        return get_image(connection, image).figures
+        return get_image(connection, image).statistics
 
 
 def test_what_is_measured_on_a_run_is_kept_with_the_image_until_another_run(project: Project) -> None:
-    assert figures_of(project, 1) is None
+    assert statistics_of(project, 1) is None
     fill_in(project)
-    measured = figures_of(project, 1)
+    measured = statistics_of(project, 1)
     assert measured is not None
     commit(project, [Derived(edit=new_cap(1, visible=circle(75, 80, 10, points=6)))], user="Ada")
     fill_in(project)
-    assert figures_of(project, 1) == measured
+    assert statistics_of(project, 1) == measured
 
     def see_again(connection: object) -> None:
         run = add_run(connection, name="again", kind="simulated")
@@ -65,17 +65,17 @@ def test_what_is_measured_on_a_run_is_kept_with_the_image_until_another_run(proj
 
     project.write(see_again)
     fill_in(project)
-    assert figures_of(project, 1) != measured
+    assert statistics_of(project, 1) != measured
 
 
 def test_labels_are_measured_where_no_run_has_been(project: Project) -> None:
     edits = [new_cap(2, uid=str(x), edit=str(x), visible=circle(x, 60, 25)) for x in (40, 100)]
     commit(project, [Derived(edit=edit) for edit in edits], user="Ada")
     fill_in(project)
-    assert figures_of(project, 2) is not None
+    assert statistics_of(project, 2) is not None
 
 
 def test_a_mark_alone_measures_nothing(project: Project) -> None:
     commit(project, [Derived(edit=new_cap(2, visible=[], mark=Circle(30, 30, 9)))], user="Ada")
     fill_in(project)
-    assert figures_of(project, 2) is None
+    assert statistics_of(project, 2) is None

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fairyring.app.caps.filling_in import fill_in
-from fairyring.app.caps.fitting import Fitting, known_figures
+from fairyring.app.caps.fitting import Fitting, known_statistics
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.caps.whole_outlines import derive_edits, note_of, reconstruction_of, refit
 from fairyring.app.protocol import Refit
@@ -27,7 +27,7 @@ IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=160, height=120, sha2
 
 def image_with(*annotations: Annotation) -> ImageCaps:
     known = {annotation.uid: annotation for annotation in annotations}
-    return ImageCaps(IMAGE, known, [], Fitting(IMAGE, known_figures(IMAGE)))
+    return ImageCaps(IMAGE, known, [], Fitting(IMAGE, known_statistics(IMAGE)))
 
 
 def contents_of(project: Project) -> ImageCaps:

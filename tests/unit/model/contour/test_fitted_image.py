@@ -8,10 +8,10 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from fairyring.model.contour.figures import Figures
 from fairyring.model.contour.fitted_image import FittedImage, fitted_image
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette
+from fairyring.model.contour.statistics import Statistics
 from fairyring.model.scene.clusters import Recipe, make_cluster
 
 WIDTH, HEIGHT = 640, 480
@@ -23,8 +23,8 @@ def bed(seed: int, *, count: int = 40) -> list[Silhouette]:
     return [Silhouette(cap.mask, cap.left, cap.top) for cap in make_cluster(seed=seed, recipe=recipe).caps]
 
 
-def fitted(caps: Sequence[Silhouette], figures: Figures | None = None) -> FittedImage:
-    return fitted_image(caps, width=WIDTH, height=HEIGHT, figures=figures)
+def fitted(caps: Sequence[Silhouette], statistics: Statistics | None = None) -> FittedImage:
+    return fitted_image(caps, width=WIDTH, height=HEIGHT, statistics=statistics)
 
 
 def moved(cap: Silhouette, *, x: int = 0, y: int = 0) -> Silhouette:
@@ -72,7 +72,7 @@ def test_one_cap_with_another_outline_is_what_fitting_the_whole_image_with_it_gi
     image = fitted(caps)
     image.reconstructions(caps)
     changed = [*caps[:at], moved(caps[at], x=3, y=-2), *caps[at + 1 :]]
-    expected = fitted(changed, image.figures).reconstructions(changed)
+    expected = fitted(changed, image.statistics).reconstructions(changed)
     assert agree(image.with_caps(changed).reconstructions([changed[at]]), [expected[at]])
     assert agree(image.with_caps(changed).reconstructions(changed), expected)
 
@@ -80,7 +80,7 @@ def test_one_cap_with_another_outline_is_what_fitting_the_whole_image_with_it_gi
 def test_a_row_of_changes_ends_where_a_fresh_start_does():
     caps = bed(4)
     image = fitted(caps)
-    figures = image.figures
+    statistics = image.statistics
     random = np.random.default_rng(4)
     for _ in range(12):
         at = int(random.integers(len(caps)))
@@ -93,7 +93,7 @@ def test_a_row_of_changes_ends_where_a_fresh_start_does():
             caps = [*caps, moved(caps[at], y=int(random.integers(20, 60)))]
         image = image.with_caps(caps)
         image.reconstructions(caps[:2])
-    assert agree(image.reconstructions(caps), fitted(caps, figures).reconstructions(caps))
+    assert agree(image.reconstructions(caps), fitted(caps, statistics).reconstructions(caps))
 
 
 def test_a_moved_neighbour_changes_a_fit_and_a_far_cap_does_not():
@@ -118,13 +118,13 @@ def test_the_same_caps_are_the_same_image():
     assert agree(image.reconstructions(copies), image.reconstructions(caps[::-1]))
 
 
-def test_figures_are_measured_on_the_caps_one_starts_with_and_hold_for_the_changed_image():
+def test_statistics_are_measured_on_the_caps_one_starts_with_and_hold_for_the_changed_image():
     caps = bed(6)
     image = fitted(caps)
     half = image.with_caps(caps[::2])
-    assert half.figures == image.figures == fitted(caps[::-1]).figures
-    assert fitted(caps[::2]).figures != image.figures
-    assert fitted([]).with_caps(caps).figures == image.figures
+    assert half.statistics == image.statistics == fitted(caps[::-1]).statistics
+    assert fitted(caps[::2]).statistics != image.statistics
+    assert fitted([]).with_caps(caps).statistics == image.statistics
 
 
 def test_an_outline_that_is_there_twice_is_one_cap():

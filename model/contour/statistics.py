@@ -22,8 +22,8 @@ WIDEST_STRETCH = 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class Figures:
-    """The figures of an image."""
+class Statistics:
+    """The statistics of an image."""
 
     noise: float
     """Standard deviation of a rim point, pixels."""
@@ -33,18 +33,20 @@ class Figures:
     """Standard deviation of each of the two components of a cap's stretch."""
 
 
-def usual_figures(priors: Priors) -> Figures:
-    """What is expected of an image before its own figures are known."""
-    return Figures(USUAL_NOISE, expected_power(USUAL_NOISE, priors), priors.stretch)
+def usual_statistics(priors: Priors) -> Statistics:
+    """What is expected of an image before its own statistics are known."""
+    return Statistics(USUAL_NOISE, expected_power(USUAL_NOISE, priors), priors.stretch)
 
 
-def measured_figures(rims: Rims, contact: Contact, estimate: Estimate, own: Array, priors: Priors) -> Figures:
-    """The figures of an image of n ≥ 1 caps, the same in whatever order these come.
+def measured_statistics(
+    rims: Rims, contact: Contact, estimate: Estimate, own: Array, priors: Priors
+) -> Statistics:
+    """The statistics of an image of n ≥ 1 caps, the same in whatever order these come.
 
     ``own`` (n, K) is how probable it is that a rim point lies on the cap's own rim.
     """
     noise = deviation(estimate, contact, priors)
-    return Figures(
+    return Statistics(
         noise=noise,
         power=power(rims, estimate, own, priors, noise=noise),
         stretch=_stretch(estimate, priors),

@@ -13,4 +13,4 @@ depends_on = None
 
 def upgrade() -> None:
     """Adds the column; images that were fitted before are measured when they are next."""
-    op.add_column("image", sa.Column("figures", sa.Text()))
+    op.add_column("image", sa.Column("statistics", sa.Text()))
