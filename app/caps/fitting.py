@@ -58,7 +58,7 @@ class Fitting:
 
 
 def known_statistics(image: Image) -> Statistics:
-    """The statistics measured on an image; the usual ones where there are none, or those of another version."""
+    """The statistics measured on an image; the usual ones where there are none that this version knows."""
     with suppress(msgspec.ValidationError):
         return msgspec.convert(image.statistics, Statistics)
     return usual_statistics(DEFAULT)
