@@ -20,13 +20,13 @@ from fairyring.model.errors import FairyringError, FileError
 GZIP = b"\x1f\x8b"
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 MOST_BYTES = 4 << 30
-"""No file is unzipped beyond this: a few kilobytes can hold any number of zeros."""
+"""Most bytes that a file is unzipped to: a few kilobytes can hold any number of zeros."""
 MOST_DIGITS = 4300
-"""A whole number with more, which Python would not read, comes through as infinity."""
+"""Most digits of a whole number; one with more, which Python would not read, becomes infinity."""
 
 
 class JsonError(FairyringError):
-    """What is no JSON; the sentence does not name the file."""
+    """A text that is not JSON; the sentence does not name the file."""
 
 
 def read_json(path: Path) -> Any:

@@ -12,7 +12,7 @@ import msgspec
 from fairyring.model.errors import FairyringError
 
 MOST_PIXELS = 1_000_000
-"""No side of an image is longer."""
+"""Longest side of an image, pixels."""
 MOST_BYTES_OF_A_NAME = 200
 
 
@@ -54,7 +54,7 @@ def size(value: Any, what: str) -> int | None:
 
 
 FLAGS = {"0": False, "1": True, "false": False, "true": True}
-"""As text, which some programs write."""
+"""The values of flags as text, which some programs write."""
 
 
 def flag(value: Any, key: str) -> bool:
@@ -83,7 +83,7 @@ def base_name(value: Any) -> str:
 
 
 def kept(extra: dict[str, Any], *, left_out: Callable[[str], None]) -> dict[str, Any]:
-    """Unknown keys, but for those that cannot be written again, each of which ``left_out`` hears of."""
+    """The unknown keys that can be written again; ``left_out`` hears of each of the others."""
     if _is_writable(extra):
         return extra
     good = {key: value for key, value in extra.items() if _is_writable({key: value})}

@@ -10,22 +10,22 @@ from pathlib import Path
 from typing import Any
 
 from fairyring.model.errors import FairyringError, FileError
+from fairyring.model.whole_files import written_whole
 
 
 def write_json(document: Any, path: Path) -> None:
-    """Writes beside and renames, so that a file is there whole or not at all."""
+    """Writes a JSON file, gzipped if its name says so, whole or not at all. Raises FileError."""
     raw = json.dumps(document).encode()
-    beside = path.with_name(path.name + ".part")
     try:
-        beside.write_bytes(gzip.compress(raw, mtime=0) if path.suffix == ".gz" else raw)
-        beside.replace(path)
+        with written_whole(path) as fresh:
+            fresh.write_bytes(gzip.compress(raw, mtime=0) if path.suffix == ".gz" else raw)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}.") from error
 
 
 @contextmanager
 def named(*paths: Path) -> Iterator[None]:
-    """Puts the files' names before what is wrong with them."""
+    """Puts the names of files before the errors raised in the block."""
     try:
         yield
     except FairyringError as error:
@@ -33,5 +33,5 @@ def named(*paths: Path) -> Iterator[None]:
 
 
 def about(error: FairyringError, *paths: Path) -> FileError:
-    """The same with the names of the files that it may be about."""
+    """The error with the names of the files that it may be about."""
     return FileError(f"{' or '.join(map(str, paths))}: {error}")

@@ -21,19 +21,19 @@ from fairyring.model.json_values import ValueRefusedError, flag, number, numbers
 
 Entry = dict[str, Any]
 Segmentation = list[Any] | dict[str, Any]
-"""Parts of an outline, or an RLE; neither checked yet."""
+"""The parts of an outline, or an RLE; neither checked yet."""
 
 IGNORED = ("iscrowd", "ignore", "ignored")
 DOUBTFUL = ("doubt", "doubtful")
 
 
 def own_id(entry: Entry) -> Id | None:
-    """None where it has none that could be compared."""
+    """Its id; None where it has none that could be compared."""
     return id_of(entry.get("id"))
 
 
 def segmentation_of(entry: Entry) -> Segmentation | None:
-    """Its parts, one flat list being one part, or its RLE; None where nothing is seen or drawn."""
+    """Its segmentation: parts (one flat list is one part) or an RLE; None where nothing is seen or drawn."""
     value = entry.get("segmentation")
     if value is None or value == []:
         return None
@@ -45,7 +45,7 @@ def segmentation_of(entry: Entry) -> Segmentation | None:
 
 
 def drawn_of(entry: Entry) -> Segmentation | None:
-    """What is seen of it; where the file does not say, its whole outline as a polygon."""
+    """Its visible outline; where the file does not say, its whole outline as a polygon."""
     segmentation = segmentation_of(entry)
     if segmentation is not None:
         return segmentation
@@ -61,7 +61,7 @@ def parts_of(polygons: list[Any]) -> list[Any]:
 
 
 def shape_of(entry: Entry) -> Shape | None:
-    """The whole outline it states, the circle before the ellipse; finite, and not checked any further."""
+    """Its circle, else its ellipse, finite and not checked any further; None without either."""
     if entry.get("circle") is not None:
         return Circle(*numbers(entry["circle"], "Its circle", count=3))
     if entry.get("ellipse") is not None:
@@ -70,7 +70,7 @@ def shape_of(entry: Entry) -> Shape | None:
 
 
 def centre_of(entry: Entry) -> Centre | None:
-    """The centre it states in so many words."""
+    """Its ``center``; None without."""
     if entry.get("center") is None:
         return None
     x, y = numbers(entry["center"], "Its center", count=2)
@@ -115,12 +115,12 @@ def is_doubtful(entry: Entry) -> bool:
 
 
 def score_of(entry: Entry) -> float | None:
-    """How sure a model was; None where nobody says, as of a cap that a person drew."""
+    """Its score; None without, as of a cap that a person drew."""
     return None if entry.get("score") is None else number(entry["score"], "Its score")
 
 
 def box_of(entry: Entry) -> tuple[float, float, float, float] | None:
-    """x, y, width and height of its bbox, pixels."""
+    """Its bbox: x, y, width and height, pixels."""
     if entry.get("bbox") is None:
         return None
     x, y, width, height = numbers(entry["bbox"], "Its bbox", count=4)

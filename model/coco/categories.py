@@ -1,4 +1,4 @@
-"""What a cap may be: the categories a COCO document lists."""
+"""The categories of a COCO document."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.json_values import ValueRefusedError, shown
 
 DEFAULT_CATEGORY = "mushroom"
-"""Of every cap that nobody called anything else."""
+"""Category of a cap that nobody gave another one."""
 MOST_LETTERS = 200
 
 
 def listed_categories(document: Document) -> dict[Id, dict[str, Any]]:
-    """All keys of each, by id; of several with one id the first."""
+    """The entries of the categories by id; of several with one id the first."""
     entries = document.others.get("categories")
     listed: dict[Id, dict[str, Any]] = {}
     for entry in entries if isinstance(entries, list) else ():
@@ -25,7 +25,7 @@ def listed_categories(document: Document) -> dict[Id, dict[str, Any]]:
 
 
 def name_of_category(entry: dict[str, Any]) -> str:
-    """Its name. Raises ValueRefusedError where that is no short printable line."""
+    """The name of a category. Raises ValueRefusedError where that is no short printable line."""
     name = entry.get("name")
     if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= MOST_LETTERS:
         raise ValueRefusedError(f"The name of category {shown(entry.get('id'))} is no short line of text.")

@@ -35,13 +35,13 @@ class FormatError(FairyringError):
 
 
 class Document(Struct, frozen=True, kw_only=True):
-    """What a file holds, item by item."""
+    """The items of a COCO document or a list of results, none of them checked yet."""
 
     images: Sequence[Item] | None
-    """None for a list of results."""
+    """Items of the images; None for a list of results."""
     annotations: Sequence[Item]
     others: dict[str, Any]
-    """All other keys, decoded."""
+    """All other keys of the document, decoded."""
 
 
 class _Belonging(Struct):
@@ -99,7 +99,7 @@ def document_of(value: Any) -> Document:
 
 
 def value_of(item: Item) -> Any:
-    """What an item says. Raises JsonError."""
+    """The decoded value of an item. Raises JsonError."""
     if type(item) is not Raw:
         return item
     try:

@@ -1,4 +1,4 @@
-"""What is wrong with one item of a document, and what is done about it.
+"""Faults of single items of a document, and what a reader does about them.
 
 Every reader of a document goes through its items alike and differs in one thing only, the function that
 hears of a fault: an import collects them (``faults.append``), an evaluation stops at the first (the function
@@ -19,16 +19,16 @@ from fairyring.model.json_values import shown
 
 
 class Fault(Struct, frozen=True):
-    """Why one item cannot be taken as it stands."""
+    """The reason why one item cannot be taken as it stands."""
 
     where: str
-    """For example ``annotation 12``."""
+    """The item, for example ``annotation 12``."""
     reason: str
-    """A sentence."""
+    """Why it cannot be taken, as a sentence."""
 
 
 Report = Callable[[Fault], None]
-"""Hears of every fault; what it raises ends the reading."""
+"""Called with every fault; what it raises ends the reading."""
 
 
 @contextmanager

@@ -8,11 +8,11 @@ from typing import Any
 Id = int | str
 
 WHOLE = re.compile(r"(0|-?[1-9][0-9]{0,18})(\.0)?")
-"""A whole number as text. 007 is none: beside it there may be a 7."""
+"""Pattern of a whole number as text. 007 is none: beside it there may be a 7."""
 
 
 def id_of(value: Any) -> Id | None:
-    """A whole number, or a text that is none; None for everything else, booleans among it."""
+    """An id in one form: a whole number, or a text that is none; None for everything else, booleans too."""
     if type(value) is int:
         return value
     if type(value) is float and value.is_integer():

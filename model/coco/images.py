@@ -17,16 +17,16 @@ class ImageEntry(Struct, frozen=True, kw_only=True):
 
     id: Id
     where: str
-    """As a ``Fault`` names it."""
+    """The name that a ``Fault`` gives it."""
     width: int | None
-    """Pixels; None where the file does not say."""
+    """Width in pixels; None where the file does not say."""
     height: int | None
     keys: dict[str, Any]
-    """All of them, as the file has them."""
+    """All keys, as the file has them."""
 
 
 def read_images(document: Document, *, report: Report) -> dict[Id, ImageEntry]:
-    """By id; of several images with one id the first. ``report`` hears of those that make no sense."""
+    """The images by id; of several with one id the first. ``report`` hears of those that make no sense."""
     images: dict[Id, ImageEntry] = {}
     for _, where, entry in objects_of("image", document.images or (), report=report):
         with reported(where, report):
@@ -38,7 +38,7 @@ def read_images(document: Document, *, report: Report) -> dict[Id, ImageEntry]:
 
 
 def by_base_name(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, ImageEntry]:
-    """By base file name; of several of one name the first. ``report`` hears of all others."""
+    """The images by base file name; of several of one name the first. ``report`` hears of all others."""
     named: dict[str, ImageEntry] = {}
     for image in images.values():
         with reported(image.where, report):
@@ -52,7 +52,7 @@ def by_base_name(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, I
 
 
 def size_of(image: ImageEntry) -> tuple[int, int]:
-    """Width and height, pixels. Raises ValueRefusedError where the file lacks one."""
+    """Width and height of an image, pixels. Raises ValueRefusedError where the file lacks one."""
     if image.width is None or image.height is None:
         raise ValueRefusedError("The file does not say how wide and high it is.")
     return image.width, image.height

@@ -1,4 +1,4 @@
-"""What is seen of a cap, checked against the size of its image: polygons or an RLE, as outline or as mask."""
+"""The visible part of a cap, polygons or an RLE, checked against the image's size: as outline or as mask."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def outline_in(
 
 
 def rle_in(segmentation: Segmentation, *, width: int, height: int) -> Rle:
-    """The pixels that are seen, perhaps none. Raises GeometryError."""
+    """The visible pixels as an RLE, perhaps none. Raises GeometryError."""
     if isinstance(segmentation, dict):
         check_size(segmentation, width=width, height=height)
         return check_rle(segmentation)
@@ -47,7 +47,7 @@ def counts_in(rle: dict[str, Any], *, width: int, height: int) -> list[int]:
 
 
 def check_size(rle: dict[str, Any], *, width: int, height: int) -> None:
-    """Raises GeometryError where an RLE is of an image of another size; before it is decoded, which costs."""
+    """Raises GeometryError for an RLE of an image of another size, before that is decoded, which costs."""
     size = rle.get("size")
     if isinstance(size, list) and size != [height, width]:
         raise GeometryError(f"Its mask is not of the image's size, {width} × {height}.")

@@ -25,16 +25,16 @@ from fairyring.model.geometry.shapes import (
 
 DECIMALS = 4
 RECONSTRUCTED, MARKED = 1, 2
-"""Visibility of the keypoint: worked out, or placed by a person."""
+"""Visibility of the keypoint that is the centre: worked out, or placed by a person."""
 
 
 def rounded(numbers: Iterable[float]) -> list[float]:
-    """To ``DECIMALS``, so that what is written, read and written again stays the same."""
+    """Coordinates rounded to ``DECIMALS``, so that writing, reading and writing again changes nothing."""
     return [round(number, DECIMALS) for number in numbers]
 
 
 def rounded_outline(outline: Outline) -> Outline:
-    """Every coordinate to ``DECIMALS``."""
+    """The outline with every coordinate rounded to ``DECIMALS``."""
     return [np.round(np.asarray(part, dtype=np.float64), DECIMALS).tolist() for part in outline]
 
 
@@ -48,7 +48,7 @@ def outline_keys(outline: Outline) -> dict[str, Any]:
 
 
 def shape_keys(shape: Shape) -> dict[str, Any]:
-    """``circle`` or ``ellipse``."""
+    """The key ``circle`` or ``ellipse`` of a whole outline."""
     return {"circle" if isinstance(shape, Circle) else "ellipse": rounded(astuple(shape))}
 
 

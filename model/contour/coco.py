@@ -28,7 +28,7 @@ OURS = ("center", "circle", "ellipse", "center_sd", "shape", "refusal")
 
 
 class ContourError(FairyringError):
-    """A document that cannot be worked on; the sentence says why, not which file it is."""
+    """A document that cannot be read; the sentence says why, not which file it is."""
 
 
 def contour_document(
@@ -61,12 +61,12 @@ def contour_document(
 
 
 def silhouettes_of(annotations: Iterable[Entry], *, width: int, height: int) -> list[Silhouette]:
-    """What is seen of each annotation of an image of this size; nothing for those that are no mask."""
+    """The silhouettes of annotations of an image of this size; empty for those without a usable mask."""
     return [_seen(annotation, width=width, height=height)[0] for annotation in annotations]
 
 
 def silhouette_of(annotation: Entry, *, width: int, height: int) -> Silhouette:
-    """What is seen of an annotation of an image of this size. Raises FairyringError."""
+    """The silhouette of an annotation of an image of this size. Raises FairyringError."""
     if is_crowd(annotation):
         raise ValueRefusedError("This is a crowd, not a cap.")
     segmentation = segmentation_of(annotation)
@@ -80,7 +80,7 @@ def silhouette_of(annotation: Entry, *, width: int, height: int) -> Silhouette:
 
 
 def _decoded(item: Item, index: int) -> Any:
-    """What cannot be decoded cannot be written back, refused or not."""
+    """An annotation, decoded; one that cannot be is an error, as it could not be written back."""
     try:
         return value_of(item)
     except JsonError as error:

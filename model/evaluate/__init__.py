@@ -1,1 +1,1 @@
-"""How good predictions are: masks, centres."""
+"""Evaluation of predictions: masks, centres."""

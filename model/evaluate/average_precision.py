@@ -17,7 +17,7 @@ from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import area_of_rle
 
 MAX_DETECTIONS = (1, 10, 300)
-"""Best predictions of an image that count; AP and AR are of the last. A bed holds more than COCO's 100."""
+"""How many best predictions of an image count; AP and AR use the last. A bed holds more than COCO's 100."""
 FAR = 1e10
 """COCO's upper end of areas, px²."""
 
@@ -26,17 +26,17 @@ class AveragePrecision(Struct, frozen=True, kw_only=True):
     """Fractions of 1; None where the truth has no cap to find."""
 
     ap: float | None
-    """Mean over IoU .5, .55, … .95."""
+    """AP, the mean over IoU .5, .55, … .95."""
     ap50: float | None
     ap75: float | None
     ar: float | None
     """Recall of all counted predictions, mean over the same IoUs."""
     ap_by_size: tuple[float | None, ...]
-    """Of COCO's small, medium and large visible areas; empty where not asked for."""
+    """AP of COCO's small, medium and large visible areas; empty where not asked for."""
 
 
 def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> AveragePrecision:
-    """Of the predictions in these images. Ignored caps go in as crowds, sized by their masks."""
+    """AP and AR of the predictions in these images. Ignored caps go in as crowds, sized by their masks."""
     document, results = coco_of_pages(pages)
     evaluation: Any = faster_coco_eval.COCOeval_faster(
         faster_coco_eval.COCO(document),

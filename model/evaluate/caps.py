@@ -38,15 +38,15 @@ class CapRecord(Struct, frozen=True, kw_only=True):
 
     id: Id | None = None
     rle: Rle | None = None
-    """Visible pixels; None where caps are paired by id."""
+    """The visible pixels; None where caps are paired by id."""
     score: float = 1.0
-    """Of a prediction; finite."""
+    """Score of a prediction, finite."""
     centre: Centre | None = None
-    """None where nobody marked it, or a method refused it."""
+    """Centre, pixels; None where nobody marked it, or a method refused it."""
     diameter: float | None = None
-    """Pixels, of the whole cap."""
+    """Diameter of the whole cap, pixels."""
     ignored: bool = False
-    """Truth only: the cap counts neither way."""
+    """Whether a true cap counts neither way."""
 
 
 def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool) -> CapRecord:
@@ -79,7 +79,7 @@ def _checked_shape(entry: Entry, *, width: int, height: int) -> Shape | None:
 
 
 def _mask(entry: Entry, *, width: int, height: int) -> tuple[Outline | None, Rle]:
-    """As polygons, None where the file has an RLE, and as RLE."""
+    """The mask as polygons (None where the file has an RLE), and as RLE."""
     drawn = drawn_of(entry)
     if drawn is None:
         raise ValueRefusedError("It has neither a visible outline nor a circle or an ellipse.")
@@ -110,6 +110,6 @@ def _centre(entry: Entry, whole: Shape | None, *, width: int, height: int) -> Ce
 
 
 def _longer_side(entry: Entry) -> float | None:
-    """Of its bbox: of a cap that is partly hidden, more often than not still its diameter."""
+    """The longer side of its bbox: mostly the diameter, even of a cap that is partly hidden."""
     box = box_of(entry)
     return max(box[2:]) if box and max(box[2:]) > 0 else None

@@ -1,4 +1,4 @@
-"""How far predicted centres lie from true ones: matching, Eq. 10, and figures over many caps.
+"""Errors of predicted centres: matching, Eq. 10, and figures over many caps.
 
 CDR shrinks as the image grows, so every figure stands beside the error in pixels and over the cap's
 diameter; the signed error shows a bias that absolute figures hide; and caps that found no partner are
@@ -26,12 +26,12 @@ class CentreError(Struct, frozen=True, kw_only=True):
     """A predicted centre against the true one."""
 
     cdr: float
-    """Percent (Eq. 10)."""
+    """CDR, percent (Eq. 10)."""
     px: float
     relative: float | None
-    """Over the cap's diameter; None where that is not known."""
+    """Error as a share of the cap's diameter; None where that is not known."""
     dx: float
-    """Predicted minus true, pixels."""
+    """Predicted minus true x, pixels; ``dy`` likewise."""
     dy: float
 
 
@@ -41,9 +41,9 @@ class Pair(Struct, frozen=True, kw_only=True):
     truth: int
     prediction: int
     iou: float | None
-    """None where they were paired by id."""
+    """IoU of the masks; None where the two were paired by id."""
     error: CentreError | None
-    """None where one of them has no centre."""
+    """Error of the centre; None where one of them has no centre."""
 
 
 class Comparison(Struct, frozen=True, kw_only=True):
@@ -51,9 +51,9 @@ class Comparison(Struct, frozen=True, kw_only=True):
 
     pairs: list[Pair]
     missed: list[int]
-    """Truths, the ignored ones left out, without a prediction."""
+    """Indices of truths without a prediction, ignored ones left out."""
     extra: list[int]
-    """Predictions without a truth, those in ignored regions left out."""
+    """Indices of predictions without a truth, those in ignored regions left out."""
 
     @property
     def errors(self) -> list[CentreError]:
@@ -61,7 +61,7 @@ class Comparison(Struct, frozen=True, kw_only=True):
 
 
 class Spread(Struct, frozen=True, kw_only=True):
-    """None throughout where there was nothing to average."""
+    """Mean, median and 95th percentile; all None where there was nothing to average."""
 
     mean: float | None = None
     median: float | None = None
@@ -72,11 +72,11 @@ class Summary(Struct, frozen=True, kw_only=True):
     """Centre errors of many caps."""
 
     cdr: Spread
-    """Percent."""
+    """CDR, percent."""
     px: Spread
     relative: Spread
     bias_px: tuple[float, float] | None
-    """Mean signed error in x and y."""
+    """Mean signed error in x and y, pixels."""
 
 
 def centre_error(
@@ -187,7 +187,7 @@ def evaluate_centres(
 
 
 def _refused_as_missed(comparison: Comparison, predictions: Sequence[CapRecord]) -> Comparison:
-    """Else a method could better its figures by refusing the caps it finds hard."""
+    """Counts refused caps as missed: else a method could gain by refusing the caps it finds hard."""
     refused = [pair for pair in comparison.pairs if predictions[pair.prediction].centre is None]
     return Comparison(
         pairs=[pair for pair in comparison.pairs if pair not in refused],

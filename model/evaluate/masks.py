@@ -1,4 +1,4 @@
-"""How good predicted masks are: average precision, precision and recall, and the success rate of caps.
+"""Figures of predicted masks: average precision, precision and recall, and the success rate of caps.
 
 All figures are fractions of 1, and None where there was nothing to count. Every cap that is not ignored
 counts in AP, AR, P and R, whatever its size; S50, S75 and S50_strict are of caps from 30 px on, as the paper
@@ -20,54 +20,54 @@ from fairyring.model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, join
 from fairyring.model.evaluate.pages import Page, pages_of
 
 SMALL_PX = 30.0
-"""Diameter below which a cap counts in S50_small alone."""
+"""Diameter, pixels, below which a cap counts in S50_small alone."""
 MEDIUM_AREA, LARGE_AREA = 32.0**2, 96.0**2
-"""Visible pixels from which COCO calls a thing medium or large."""
+"""Visible pixels from which on COCO calls an object medium or large."""
 
 CAPITALS = {"ap": "AP", "ap50": "AP50", "ap75": "AP75", "ar": "AR", "p": "P", "r": "R", "f1": "F1"} | {
     f"s{rest}": f"S{rest}" for rest in ("50", "75", "50_strict", "50_small")
 }
-"""Keys as they are written, which are those of the literature."""
+"""Names of the figures as they are written, which are those of the literature."""
 
 
 class GroupScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
-    """Of a part of the caps."""
+    """Figures of a part of the caps."""
 
     ap: float | None
-    """Of the group's images; of a size, COCO's, which counts the caps under 30 px too."""
+    """AP of the group's images; for sizes COCO's, which counts the caps under 30 px too."""
     s50: float | None
     s75: float | None
     s50_strict: float | None
     count: int
-    """Caps that the success rates are shares of."""
+    """How many caps the success rates are shares of."""
 
 
 class BestF1(Struct, frozen=True, kw_only=True, rename=CAPITALS):
-    """Where the harmonic mean of precision and recall at IoU .5 is highest."""
+    """The highest harmonic mean of precision and recall at IoU .5, and the least score that gives it."""
 
     f1: float | None
     score: float | None
-    """Predictions from this score on."""
+    """Least score of the predictions that give it."""
     p: float | None
     r: float | None
 
 
 class Counts(Struct, frozen=True, kw_only=True):
-    """What the figures are of."""
+    """How many images, caps and predictions the figures are of."""
 
     images: int
     truths: int
-    """Not ignored; of all sizes."""
+    """True caps of all sizes, ignored ones left out."""
     small: int
-    """Of these, under 30 px."""
+    """True caps under 30 px."""
     ignored: int
     predictions: int
-    """Of all scores. What follows is of scores ≥ .5, at IoU ≥ .5."""
+    """Predictions of all scores. The counts below are of scores ≥ .5, at IoU ≥ .5."""
     matched: int
     missed: int
     extra: int
     dropped: int
-    """Unmatched in ignored regions."""
+    """Unmatched predictions in ignored regions."""
 
 
 class MaskScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
@@ -90,7 +90,7 @@ class MaskScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
     """S50 of the caps under 30 px (``Outcomes.diameter``)."""
     best_f1: BestF1
     score: float = LEAST_SCORE
-    """From which predictions count in P, R and the success rates."""
+    """Least score of the predictions that count in P, R and the success rates."""
     counts: Counts
     groups: dict[str, dict[str, GroupScores]]
     """By ``light`` and ``form`` (of images that state them), and by ``size``: s, m and l, visible areas below
@@ -190,7 +190,7 @@ def _counts(pages: Sequence[Page], outcomes: Outcomes) -> Counts:
 
 
 def _best_f1(outcomes: Outcomes) -> BestF1:
-    """Over all scores that occur; the highest of those that are equally good."""
+    """The best F1 over all scores that occur; of several equally good ones the highest score."""
     counted = ~outcomes.dropped
     order = np.argsort(-outcomes.score[counted], kind="stable")
     scores, right = outcomes.score[counted][order], outcomes.right[counted][order]

@@ -1,4 +1,4 @@
-"""Which prediction is whose, one to one, and which ones count neither way."""
+"""Matches predictions with true caps one to one, and finds those that count neither way."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.geometry.raster import Rle, shares_inside
 
 LEAST_IOU = 0.5
-"""From here on a prediction is the truth's partner."""
+"""Least IoU of a true cap and the prediction matched with it."""
 IGNORED_SHARE = 0.5
-"""An unmatched prediction with this much of its area in ignored regions counts neither way."""
+"""An unmatched prediction with this share of its area in ignored regions counts neither way."""
 
 
 def pairs_by_overlap(iou: NDArray[np.float64], *, least: float) -> list[tuple[int, int]]:

@@ -1,4 +1,4 @@
-"""What became of every true cap and of every prediction: what success rates, precision and recall count.
+"""The outcome of every true cap and prediction, from which success rates, precision and recall are counted.
 
 One matching at IoU .5 answers for every score: predictions take their caps in order of falling score, so
 that leaving out the ones below some score changes nothing above it.
@@ -19,7 +19,7 @@ from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import area_of_rle, covered_matrix, iou_matrix
 
 LEAST_SCORE = 0.5
-"""From here on a prediction is one that the model stands by."""
+"""Least score of a prediction that counts as certain."""
 CLOSE_IOU = 0.75
 COVERING = 0.5
 """A prediction covers a cap if it covers this share of the cap's pixels."""
@@ -30,7 +30,7 @@ Figures = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Outcomes:
-    """Of n true caps that are not ignored, and m predictions, of one image or many."""
+    """Outcomes of n true caps that are not ignored, and of m predictions, of one image or many."""
 
     area: Figures
     """(n,) visible pixels."""
@@ -55,7 +55,7 @@ class Outcomes:
 
 
 def outcomes_of_page(page: Page) -> Outcomes:
-    """Of one image. Raises FairyringError for a score that is not finite, or a cap without a mask."""
+    """The outcomes of one image. Raises FairyringError for an infinite score or a cap without a mask."""
     real = [cap for cap in page.truths if not cap.ignored]
     truths, predictions = [mask_of(cap) for cap in real], [mask_of(cap) for cap in page.predictions]
     scores = np.array([cap.score for cap in page.predictions], dtype=np.float64)
@@ -85,7 +85,7 @@ def outcomes_of_page(page: Page) -> Outcomes:
 
 
 def joined(outcomes: Sequence[Outcomes]) -> Outcomes:
-    """Of several images, at least one, as if they were one."""
+    """The outcomes of several images, at least one, as if they were one."""
     columns = [field.name for field in fields(Outcomes)]
     return Outcomes(**{name: np.concatenate([getattr(one, name) for one in outcomes]) for name in columns})
 

@@ -25,14 +25,14 @@ class DocumentError(FairyringError):
     """A document that cannot be evaluated; the sentence names the item, not the file."""
 
     side: Literal["predicted", "truth"] | None = None
-    """Whose document it is; None where the two do not fit together."""
+    """Which of the two documents it is; None where they do not match each other."""
 
 
 class Page(Struct, frozen=True, kw_only=True):
     """One image of the truth, with what was predicted there."""
 
     file_name: str
-    """Base name."""
+    """Base name of the image's file."""
     width: int
     height: int
     truths: list[CapRecord]
@@ -88,7 +88,7 @@ def _stop(fault: Fault) -> NoReturn:
 
 
 def _images(document: Document) -> dict[str, ImageEntry] | None:
-    """By base name; None for a result list."""
+    """The images by base name; None for a result list."""
     if document.images is None:
         return None
     images = by_base_name(read_images(document, report=_stop), report=_stop)

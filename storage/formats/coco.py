@@ -49,7 +49,7 @@ DERIVED_KEYS = {"keypoints", "num_keypoints", "amodal_segmentation"}
 
 
 def parse_coco(data: bytes, *, file: str) -> Found:
-    """All a COCO file says, image by image.
+    """The images and caps of a COCO file.
 
     What is wrong with single items is in ``problems``.
 
@@ -72,7 +72,7 @@ def parse_coco(data: bytes, *, file: str) -> Found:
 
 
 def _images(document: Document, faults: list[Fault]) -> dict[Id, FoundImage]:
-    """By id, in the order of the file."""
+    """The images by id, in the order of the file."""
     licenses = _licenses(document)
     images: dict[Id, FoundImage] = {}
     named = by_base_name(read_images(document, report=faults.append), report=faults.append)
@@ -109,7 +109,7 @@ def _caps(
     categories: dict[Id, dict[str, Any]],
     faults: list[Fault],
 ) -> dict[Id, list[FoundCap]]:
-    """By the id of their image."""
+    """The caps by the id of their image."""
     caps: dict[Id, list[FoundCap]] = {own: [] for own in images}
     lost: Counter[Id | None] = Counter()
     ids: Counter[Id | None] = Counter()
@@ -168,7 +168,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
 
 
 def _order(entry: Entry, where: str, faults: list[Fault]) -> int | None:
-    """Of a cap whose order makes no sense everything else still does."""
+    """The overlap order; one that makes no sense is reported and left out, and the cap is kept."""
     try:
         order = order_of(entry)
     except ValueRefusedError as error:
@@ -181,7 +181,7 @@ def _order(entry: Entry, where: str, faults: list[Fault]) -> int | None:
 
 
 def _licenses(document: Document) -> dict[Id | None, Any]:
-    """All keys of each, by id; of several with one id the first."""
+    """The licences by id; of several with one id the first."""
     entries = document.others.get("licenses")
     licenses: dict[Id | None, Any] = {}
     for entry in entries if isinstance(entries, list) else ():
@@ -194,7 +194,7 @@ def _licenses(document: Document) -> dict[Id | None, Any]:
 def _other_keys_of_categories(
     categories: dict[Id, dict[str, Any]], faults: list[Fault]
 ) -> dict[str, dict[str, Any]]:
-    """What else is said of each, by name."""
+    """The unknown keys of each category, by its name."""
     others: dict[str, dict[str, Any]] = {}
     for own, entry in categories.items():
         with reported(f"category {shown(own)}", faults.append):

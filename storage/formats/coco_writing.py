@@ -23,7 +23,7 @@ KEYPOINTS = ["centre"]
 
 
 def annotation_entry(annotation: Annotation, *, number: int, image: int, category: int) -> dict[str, Any]:
-    """One annotation. ``image`` and ``category`` are numbers within the file."""
+    """The entry of an annotation. ``image`` and ``category`` are numbers within the file."""
     cap = annotation.cap
     marked = cap.mark is not None
     whole, centre = annotation.whole, annotation.centre
@@ -42,7 +42,7 @@ def annotation_entry(annotation: Annotation, *, number: int, image: int, categor
 
 
 def prediction_entry(prediction: Prediction, *, number: int, image: int, category: int) -> dict[str, Any]:
-    """One prediction, with its score."""
+    """The entry of a prediction, with its score."""
     entry = _geometry(prediction.visible, None, prediction.whole)
     entry |= {"image_id": image, "category_id": category, "iscrowd": 0, "score": prediction.score}
     entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
@@ -50,7 +50,7 @@ def prediction_entry(prediction: Prediction, *, number: int, image: int, categor
 
 
 def image_entry(image: Image, *, number: int, licenses: list[dict[str, Any]]) -> dict[str, Any]:
-    """One image; its licence is entered into ``licenses`` and named by number."""
+    """The entry of an image; its licence is added to ``licenses`` and named by number."""
     entry: dict[str, Any] = {"id": number, "file_name": image.file_name}
     entry |= {"width": image.width, "height": image.height, "status": image.status}
     known = {"light": image.light, "form": image.form, "split": image.split}
@@ -62,7 +62,7 @@ def image_entry(image: Image, *, number: int, licenses: list[dict[str, Any]]) ->
 
 
 def category_entry(name: str, extra: dict[str, Any], *, number: int) -> dict[str, Any]:
-    """One category; its one keypoint is the centre."""
+    """The entry of a category; its one keypoint is the centre."""
     return extra | {"id": number, "name": name, "keypoints": KEYPOINTS, "skeleton": []}
 
 

@@ -1,4 +1,4 @@
-"""What a file of labels holds, before anybody has looked at the images: the same for every format."""
+"""The contents of a file of labels before the photos are read, the same for every format."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from fairyring.storage.records import Cap, Shape
 
 
 class Problem(Struct, frozen=True):
-    """Something that could not be taken as it stands."""
+    """An item of a file that could not be taken as it stands."""
 
     file: str
     where: str
-    """For example ``annotation 12``; empty where it is the whole file."""
+    """The item, for example ``annotation 12``; empty where it is the whole file."""
     reason: str
 
     def __str__(self) -> str:
@@ -22,27 +22,27 @@ class Problem(Struct, frozen=True):
 
 
 class FoundCap(Struct, frozen=True, kw_only=True):
-    """One cap. Its outline is as the file has it, polygons or an RLE: not yet checked against the image."""
+    """A cap in a file. Its outline is as the file has it, not yet checked against the image."""
 
     where: str
     cap: Cap
     score: float | None = None
     marked: bool = True
-    """A person placed what stands for the centre; False for what a machine worked out."""
+    """Whether a person placed its shape and centre, rather than a machine."""
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     uid: str | None = None
     rle: dict[str, Any] | None = None
-    """In place of the visible outline, which is decoded once the photo's size is known."""
+    """An RLE in place of the visible outline; it is decoded once the photo's size is known."""
     extra: dict[str, Any] = field(default_factory=dict)
 
 
 class FoundImage(Struct, frozen=True, kw_only=True):
-    """One image a file speaks of, and its caps."""
+    """An image in a file, with its caps."""
 
     where: str
     file_name: str
-    """As written; only its base name counts."""
+    """File name as written; only its base name counts."""
     width: int | None = None
     height: int | None = None
     light: str | None = None
@@ -53,10 +53,10 @@ class FoundImage(Struct, frozen=True, kw_only=True):
 
 
 class Found(Struct, frozen=True, kw_only=True):
-    """All of one file. ``problems`` are those of items left out of it."""
+    """All of one file. ``problems`` are those of the items that were left out."""
 
     file: str
     images: list[FoundImage]
     problems: list[Problem]
     categories: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Unknown keys of each category."""
+    """Unknown keys of each category, by its name."""

@@ -24,7 +24,7 @@ IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "ima
 
 
 def parse_labelme(data: bytes, *, file: str) -> Found:
-    """All a labelme file says.
+    """The image and caps of a labelme file.
 
     What is wrong with single shapes is in ``problems``.
 
@@ -111,7 +111,7 @@ def _grouped(shapes: Iterable[_Shape]) -> list[list[_Shape]]:
 
 
 def _as_caps(group: list[_Shape]) -> list[list[_Shape]]:
-    """Some people group what grows together: with two circles a group is certainly not one cap."""
+    """Divides a group with two circles or more into single shapes: some people group what grows together."""
     circles = sum(isinstance(shape.geometry, Circle) for shape in group)
     return [group] if circles < 2 else [[shape] for shape in group]
 

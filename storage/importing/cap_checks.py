@@ -28,26 +28,26 @@ from fairyring.storage.importing.photos import Photo
 from fairyring.storage.records import Cap, Outline, Shape
 
 SAME_CENTRE = 0.5
-"""Pixels by which ``center`` may differ from the shape's centre without a word (files are rounded)."""
+"""How far ``center`` may lie from the shape's centre without a remark, pixels (files are rounded)."""
 OWN_NUMBER = re.compile(r"[A-Za-z0-9_-]{1,64}")
 
 
-def fit_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[list[FoundCap], list[Problem]]:
+def check_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[list[FoundCap], list[Problem]]:
     """The caps that can be stored, each with a number of its own, and what is wrong with the others."""
     good: list[FoundCap] = []
     problems: list[Problem] = []
     for cap in caps:
         try:
-            fitted, left_out = _fit(cap, photo)
+            checked, left_out = _checked(cap, photo)
         except FairyringError as error:
             problems.append(Problem(file, cap.where, str(error)))
             continue
-        good.append(fitted)
+        good.append(checked)
         problems += [Problem(file, cap.where, reason) for reason in left_out]
     return good, problems
 
 
-def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
+def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     remarks: list[str] = []
     whole, centre = _checked_shape(found.whole, photo), _checked_centre(found.centre, photo)
     cap = structs.replace(found.cap, visible=_visible(found, photo, whole))
@@ -68,7 +68,7 @@ def _fit(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
 
 
 def _visible(found: FoundCap, photo: Photo, whole: Shape | None) -> Outline:
-    """As the file has it; where it gives only what a machine worked out, that is taken for what is seen."""
+    """The visible outline; where a file gives only a worked-out whole outline, that one."""
     if found.rle is not None:
         return outline_in(found.rle, width=photo.width, height=photo.height)
     if found.cap.visible or found.cap.mark is not None or whole is None:
@@ -84,7 +84,7 @@ def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str
 
 
 def content_number(cap: Cap, *, photo: Photo) -> str:
-    """The same outline and mark in the same photo always get the same number."""
+    """A uid from a cap's content: the same outline and mark in the same photo always get the same one."""
     content = msgspec.json.encode((photo.file_name, photo.sha256, cap.visible, cap.mark))
     return blake2b(content, digest_size=16).hexdigest()
 
@@ -100,7 +100,7 @@ def _checked_centre(centre: Centre | None, photo: Photo) -> Centre | None:
 
 
 def _mark_around(centre: tuple[float, float], visible: Outline) -> Circle:
-    """A file that gives a centre alone gets the circle of the visible outline's area around it."""
+    """The mark for a cap with a bare ``center``: the circle of the visible outline's area around it."""
     if not visible:
         raise StoreError("A center without an outline, circle or ellipse is no cap.")
     return Circle(*centre, math.sqrt(area_of_outline(visible) / math.pi))

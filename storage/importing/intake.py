@@ -12,7 +12,7 @@ from fairyring.model.json_values import base_name
 from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
-from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.photos import Photo, examine, find_beside
 from fairyring.storage.importing.sources import Document, Sources
 
@@ -90,7 +90,7 @@ def _take_labels(
     photo = _photo_of(intake, document.path, image)
     intake.photos[photo.file_name] = _told_more(photo, image, light=light, form=form)
     intake.seen.add(photo.file_name)
-    caps, problems = fit_caps(image.caps, photo=photo, file=str(document.path))
+    caps, problems = check_caps(image.caps, photo=photo, file=str(document.path))
     intake.caps.setdefault(photo.file_name, []).extend(caps)
     intake.problems.extend(problems)
 

@@ -23,7 +23,7 @@ from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import FoundCap
-from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.photos import Photo
 
 SQUARE = [10, 10, 30, 10, 30, 30, 10, 30]
@@ -159,7 +159,7 @@ def imported(document: dict[str, Any]) -> tuple[list[FoundCap], list[tuple[str, 
     """The caps an import takes, and its complaints: where, and why."""
     found = parse_coco(json.dumps(document).encode(), file="f.json")
     photo = Photo(file_name="bed.png", width=100, height=80, sha256="")
-    caps, problems = fit_caps(found.images[0].caps, photo=photo, file="f.json")
+    caps, problems = check_caps(found.images[0].caps, photo=photo, file="f.json")
     return caps, [(problem.where, problem.reason) for problem in (*found.problems, *problems)]
 
 

@@ -19,7 +19,7 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.storage.formats.coco import parse_coco
-from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.photos import Photo
 
 SQUARE = [10, 10, 30, 10, 30, 30, 10, 30]
@@ -86,7 +86,7 @@ def text_of(document: Any) -> bytes:
 def test_an_import_takes_the_good_annotation_beside_the_bad_one(bad: list[Any]) -> None:
     found = parse_coco(text_of(document_with(bad)), file="f.json")
     photo = Photo(file_name="bed.png", width=64, height=48, sha256="")
-    caps, problems = fit_caps(found.images[0].caps, photo=photo, file="f.json")
+    caps, problems = check_caps(found.images[0].caps, photo=photo, file="f.json")
     assert caps[-1].where == "annotation 77"
     assert caps[-1].cap.visible == [list(map(float, SQUARE))]
     for problem in (*found.problems, *problems):

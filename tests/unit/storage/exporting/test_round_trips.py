@@ -10,7 +10,7 @@ from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, fit_of_sha
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_writing import annotation_entry
-from fairyring.storage.importing.cap_checks import fit_caps
+from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.importing.photos import Photo
 from fairyring.storage.journal import Derived, commit
@@ -111,7 +111,7 @@ def written_and_read(stored):
     }
     found = parse_coco(json.dumps(document).encode(), file="f.json")
     photo = Photo(file_name="bed.png", width=100, height=80, sha256="")
-    fitted, problems = fit_caps(found.images[0].caps, photo=photo, file="f.json")
+    fitted, problems = check_caps(found.images[0].caps, photo=photo, file="f.json")
     assert found.problems == problems == []
     assert [cap.uid for cap in fitted] == [annotation.uid for annotation in annotations]
     return [cap.cap for cap in fitted]
