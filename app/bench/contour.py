@@ -1,4 +1,4 @@
-"""How far each contour method's centres are from the truth, how well it knows that, and how long it takes.
+"""Measures the contour methods: error of their centres, the deviation they state, and their time.
 
 Clusters are made by the recipe of ``model.scene.clusters`` with other seeds than anything was tuned on. The
 time is compared with what anybody would write: ``findContours`` and ``fitEllipse`` on the same cropped masks.
@@ -30,22 +30,22 @@ HEAVY = 0.6
 PARTLY = 0.9
 """One with more than that and less than this, as partly hidden."""
 
-DRAWS = 2000
-"""How often caps are drawn anew, to say how far a difference between two methods may be chance."""
+RESAMPLES = 2000
+"""Bootstrap resamples, which say how far a difference between two methods may be chance."""
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """An image's name and masks with the true centres (n, 2) and the visible shares of the caps (n,)."""
+    """The masks of an image's caps, with their true centres (n, 2) and visible shares (n,)."""
 
     name: str
     caps: list[Silhouette]
     centres: np.ndarray
     visible: np.ndarray
     counts: np.ndarray
-    """(n,), which caps count; the others are context alone."""
+    """(n,), whether each cap counts; the others are context alone."""
     doubtful: np.ndarray
-    """(n,), of which caps a careful person could think otherwise."""
+    """(n,), whether a careful person could disagree about each cap."""
     width: int
     height: int
 
@@ -55,13 +55,13 @@ class Counted:
     """The m caps of all images that count."""
 
     image: np.ndarray
-    """(m,), names."""
+    """(m,), names of the images."""
     visible: np.ndarray
     doubtful: np.ndarray
 
 
 Choice = Callable[[Counted], np.ndarray]
-"""Which of the caps a row is about, (m,)."""
+"""Chooses the caps that a row is about, (m,)."""
 CERTAIN: dict[str, Choice] = {"without doubtful caps": lambda caps: ~caps.doubtful}
 BY_COVERAGE: dict[str, Choice] = {
     **CERTAIN,
@@ -161,16 +161,16 @@ def _rows(images: Sequence[Truth], choices: dict[str, Choice]) -> list[Row]:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Of the m caps of all images that count, not a number where a method gives no centre."""
+    """Errors of the m caps of all images that count; NaN where a method gives no centre."""
 
     cdr: np.ndarray
     """(m,), percent."""
     scores: np.ndarray
     """(m, 2), centre errors in standard deviations, clipped at 5."""
     seconds: float
-    """That the method took for all of the images' caps."""
+    """Seconds that the method took for all caps of the images."""
     caps: int
-    """How many those were."""
+    """How many caps that were."""
 
 
 def _measure(method: str, images: Sequence[Truth]) -> Errors:
@@ -184,7 +184,7 @@ def _measure(method: str, images: Sequence[Truth]) -> Errors:
 
 
 def _figures(errors: Errors, chosen: np.ndarray, visible: np.ndarray) -> Row:
-    """Of those of the chosen caps that have a centre."""
+    """Figures of the chosen caps, of those that have a centre."""
     known = chosen & np.isfinite(errors.cdr)
     cdr, scores = errors.cdr[known], errors.scores[known]
     heavy = cdr[visible[known] < HEAVY]
@@ -208,13 +208,13 @@ def _over(cdr: np.ndarray, best: np.ndarray) -> Row:
     more = (cdr - best)[np.isfinite(cdr - best)]
     if not more.any():
         return {"over_map": None, "over_map_95": None}
-    draws = np.random.default_rng(SEED).integers(len(more), size=(DRAWS, len(more)))
+    draws = np.random.default_rng(SEED).integers(len(more), size=(RESAMPLES, len(more)))
     low, high = np.percentile(more[draws].mean(axis=1), (2.5, 97.5))
     return {"over_map": round(float(more.mean()), 4), "over_map_95": f"{low:.3f} to {high:.3f}"}
 
 
 def _errors(image: Truth, found: Sequence[Reconstruction]) -> tuple[np.ndarray, np.ndarray]:
-    """Of the caps that count: as the first two fields of `Errors`."""
+    """The first two fields of `Errors`, of the caps that count."""
     nowhere = (np.nan, np.nan)
     off = np.array([each.fit.centre or nowhere for each in found])[image.counts] - image.centres[image.counts]
     sd = np.array([each.fit.centre_sd or nowhere for each in found])[image.counts]
@@ -235,7 +235,7 @@ def _plain(caps: Sequence[Silhouette]) -> float:
 
 
 def _seconds(work: Callable[[], object]) -> float:
-    """The best of three, for others use this machine too."""
+    """Seconds of the fastest of three calls, as others use this machine too."""
     taken = []
     for _ in range(3):
         start = time.perf_counter()

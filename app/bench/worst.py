@@ -1,4 +1,4 @@
-"""The caps of checked photos whose centres a contour method places furthest off, as pictures.
+"""Draws the caps of checked photos whose centres a contour method gets most wrong.
 
 Visible mask tinted; its arcs green (own rim), red (behind a neighbour), orange (image border), blue (hollow);
 the outline found magenta, with the ellipse of two standard deviations around its centre; the truth cyan.
@@ -28,7 +28,7 @@ from fairyring.model.photo import read
 
 COUNT, COLUMNS = 10, 5
 PANEL, CAPTION, LINE = 400, 112, 20
-"""Pixels: sides of the picture of a cap, height of the words below it, of one line of them."""
+"""Side of the picture of a cap, height of the caption below it, height of one line of that; pixels."""
 FIT, TRUTH, MASK = (255, 0, 255), (255, 255, 0), (90, 200, 90)
 KINDS: dict[ArcKind, tuple[int, int, int]] = {
     "visible": (0, 220, 0),
@@ -42,14 +42,14 @@ Picture = NDArray[np.uint8]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Miss:
-    """A cap of a photo, what is known of it and what a method made of it."""
+    """A cap of a photo, its annotation, and what a method made of it."""
 
     photo: Path
     annotation: dict[str, Any]
     cap: Silhouette
     found: Reconstruction
     cdr: float
-    """Percent (Eq. 10)."""
+    """CDR, percent (Eq. 10)."""
     px: float
 
 
@@ -100,7 +100,7 @@ def _misses(document: dict[str, Any], image: dict[str, Any], labels: Path, metho
 
 
 def _panel(miss: Miss, title: str) -> Picture:
-    """The surroundings of one cap, twice as wide as it is whole, over a few words."""
+    """A picture of one cap, twice as wide as its whole outline, with a caption."""
     photo = read(miss.photo)
     truth = _truth(miss.annotation)
     size = 2 * max(truth.r if isinstance(truth, Circle) else truth.a, 12)
@@ -137,7 +137,7 @@ def _tinted(photo: Picture, cap: Silhouette) -> Picture:
 
 @dataclass(frozen=True, slots=True)
 class _Frame:
-    """What part of a photo a picture shows, and how much enlarged."""
+    """The part of a photo that a picture shows, and its enlargement."""
 
     scale: float
     left: float

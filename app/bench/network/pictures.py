@@ -19,7 +19,7 @@ from fairyring.model.geometry.shapes import Outline, points_of_part
 from fairyring.model.photo import Pixels
 
 TRUTH, FOUND, UNSURE = (255, 255, 0), (255, 0, 255), (120, 120, 255)
-"""BGR: true outlines cyan, predictions magenta, those of a score below CERTAIN in a dull red."""
+"""Colours, BGR: true outlines cyan, predictions magenta, those of a score below CERTAIN dull red."""
 QUALITY = 85
 SUBPIXEL = 4
 """Bits of a coordinate that OpenCV draws below a pixel."""

@@ -1,4 +1,4 @@
-"""What the network is measured on: rendered beds that no training has seen, and hand-checked photos."""
+"""The test sets of the network: rendered beds that no training has seen, and hand-checked photos."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from fairyring.model.scene.dataset import DOCUMENT, write_beds
 from fairyring.model.scene.presets import preset
 
 TEST_BEDS = {"paper": (48, 3003), "farm": (20, 3001)}
-"""Preset: how many beds, and their seed. Training and validation have other seeds."""
+"""Number of test beds and their seed, by preset. Training and validation have other seeds."""
 TRAINING_SEEDS = {"farm": 1001, "default": 1002, "paper": 1003}
 
 
@@ -27,7 +27,7 @@ class LabelledPhotos:
     name: str
     document: dict[str, Any]
     photos: list[Path]
-    """Of the document's images, in their order."""
+    """Photos of the document's images, in their order."""
 
     def images(self) -> Iterator[tuple[dict[str, Any], Pixels]]:
         """Each entry of the document with its photo, (height, width, 3) RGB."""

@@ -19,7 +19,7 @@ CERTAIN = 0.5
 PAPER_MASKS = {"AP": 0.9304, "AP50": 0.9906, "AP75": 0.9525, "S50": 0.9813}
 PAPER_LIGHTS = {"top": 0.9800, "side": 0.9723, "dark": 0.9873}
 PAPER_CDR = 0.30
-"""Percent, mean."""
+"""The paper's mean CDR, percent."""
 
 MASK_FIGURES = ("AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "S50_small")
 
@@ -31,7 +31,7 @@ def predicted_document(
     settings: DecodeConfig | None = None,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """What the network sees in the photos, as a COCO document with scores."""
+    """The network's predictions for the photos, as a COCO document with scores."""
     annotations: list[dict[str, Any]] = []
     for done, (entry, pixels) in enumerate(photos.images()):
         progress(done, len(photos.photos), f"predicting {entry['file_name']}")
@@ -99,7 +99,7 @@ def _row(name: str, scores: dict[str, Any], paper: float | None) -> dict[str, An
 
 
 def _without_doubt(document: dict[str, Any]) -> dict[str, Any]:
-    """Doubtful caps count neither way."""
+    """The document with doubtful caps ignored, so that they count neither way."""
     caps = [cap | {"ignore": True} if cap.get("doubt") else cap for cap in document["annotations"]]
     return document | {"annotations": caps}
 

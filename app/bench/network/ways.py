@@ -1,4 +1,4 @@
-"""Table 4, its other half: ways to run the same network that are, and are not, what the predictor does."""
+"""Table 4, second half: other ways to run the same network, beside the predictor's own."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def _compiled(network: PRSOLOv2) -> nn.Module:
 
 
 def _whole_resolution(weights: Path, device: torch.device) -> PRSOLOv2:
-    """The same layers over four times the pixels."""
+    """The same layers at the photo's whole resolution, over four times the pixels."""
     loaded = load_weights(weights).network
     network = PRSOLOv2(replace(loaded.config, reduction=1))
     network.load_state_dict(loaded.state_dict())
