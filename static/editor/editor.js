@@ -49,7 +49,7 @@ export class Editor {
   #status;
   #conflicts;
   #toolbox;
-  #run;
+  #perform;
 
   /**
    * @param {HTMLElement} host
@@ -102,7 +102,7 @@ export class Editor {
       frame: this.#frame,
       say: this.#say,
     });
-    this.#run = this.#makeRunner();
+    this.#perform = this.#performer();
     this.#listen(host, pointer);
     this.#progress();
     expose(host, {
@@ -119,8 +119,8 @@ export class Editor {
     this.#transport.offer(token);
   }
 
-  /** @returns {(name: string) => boolean} */
-  #makeRunner() {
+  /** Carries out commands by name; false for one that nobody knows. @returns {(name: string) => boolean} */
+  #performer() {
     const context = {
       state: this.#state,
       tool: () => this.#toolbox.tool,
@@ -143,13 +143,13 @@ export class Editor {
   #listen(host, pointer) {
     const state = this.#state;
     listenToKeys({
-      run: this.#run,
+      perform: this.#perform,
       state,
       pointer,
       pressed: (at) => this.#frame.causedBy(at, "key"),
     });
     listenToPanel({
-      run: this.#run,
+      perform: this.#perform,
       use: (name) => this.#toolbox.use(name),
       open: (image, select) => this.#open(image, select),
     });
@@ -250,7 +250,7 @@ export class Editor {
       case "layers":
         return this.#layers(message);
       case "command":
-        return void this.#run(message.name);
+        return void this.#perform(message.name);
       case "notice":
         return this.#say(message.text, message.level);
     }

@@ -37,10 +37,7 @@ export class Opening {
   ask(sent) {
     this.#asked = sent ? performance.now() : null;
     if (!sent)
-      this.#parts.say(
-        "The server cannot be reached; other images can be opened when it is back.",
-        "warning",
-      );
+      this.#parts.say("The server cannot be reached; other images can be opened when it is back.", "warning");
   }
 
   /** The server sends an image, which may be a fresh copy of the same. @type {(message: Show) => void} */

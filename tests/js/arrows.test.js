@@ -21,7 +21,9 @@ const DRAWING = `
 `;
 const LINES = DRAWING.trim().split("\n");
 
-const FILES = readdirSync(EDITOR, { recursive: true, encoding: "utf-8" }).filter((file) => file.endsWith(".js"));
+const FILES = readdirSync(EDITOR, { recursive: true, encoding: "utf-8" }).filter((file) =>
+  file.endsWith(".js"),
+);
 
 /** @type {(file: string) => string} */
 const roomOf = (file) => file.split(path.sep)[0].replace(/\.js$/, "");

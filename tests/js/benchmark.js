@@ -22,7 +22,10 @@ const shapes = Array.from({ length: CAPS }, (_, i) =>
   storedShape(`cap ${i}`, capOf(star(random, { ...somewhere(), radius: 22, count: 20 }))),
 );
 const { state } = openState({ shapes });
-const points = Array.from({ length: QUESTIONS }, () => /** @type {[number, number]} */ (Object.values(somewhere())));
+const points = Array.from(
+  { length: QUESTIONS },
+  () => /** @type {[number, number]} */ (Object.values(somewhere())),
+);
 const uids = points.map(() => `cap ${random.chance(CAPS)}`);
 const bands = points.map(([x, y]) => ({ x0: x, y0: y, x1: x + 200, y1: y + 200 }));
 

@@ -50,7 +50,7 @@ export function zoomed(view, { x, y, factor, smallest }) {
  * @param {number} margin
  * @returns {View}
  */
-export function fitted(bounds, size, margin) {
+export function viewOf(bounds, size, margin) {
   const width = Math.max(bounds.x1 - bounds.x0, 1e-6);
   const height = Math.max(bounds.y1 - bounds.y0, 1e-6);
   const room = {
@@ -81,7 +81,7 @@ export function revealing(view, bounds, size) {
   const fits = width <= size.width - 2 * margin && height <= size.height - 2 * margin;
   if (!fits || Math.max(width, height) < 24) {
     const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    return fitted(grown(bounds, reach), size, margin);
+    return viewOf(grown(bounds, reach), size, margin);
   }
   const [left, top] = toScreen(view, bounds.x0, bounds.y0);
   return panned(view, shift(left, width, size.width, margin), shift(top, height, size.height, margin));

@@ -36,9 +36,9 @@ import { commandOfLayer } from "./keys.js";
 export const ACTIONS = {
   undo: (context) => travel(context, context.undo, "There is nothing to undo on this image."),
   redo: (context) => travel(context, context.redo, "There is nothing to redo."),
-  fit: ({ state }) => state.viewport.fit(),
+  fit: ({ state }) => state.viewport.showAll(),
   zoom_selection: ({ state }) =>
-    state.selection.uids.size ? state.reveal({ close: true }) : state.viewport.fit(),
+    state.selection.uids.size ? state.reveal({ close: true }) : state.viewport.showAll(),
   zoom_in: ({ state }) => zoom(state, 1.25),
   zoom_out: ({ state }) => zoom(state, 0.8),
   delete: ({ state, tool }) => tool().back?.() || deleteSelected(state),

@@ -8,14 +8,14 @@ import { commandOf, heldBy, isTyping } from "./keys.js";
 
 /**
  * @typedef {Object} Parts  of the editor that keys reach
- * @property {(command: string) => boolean} run
+ * @property {(command: string) => boolean} perform  false for a command that nobody knows
  * @property {import("../state/editor_state.js").EditorState} state
  * @property {import("./pointer.js").Pointer} pointer
  * @property {(at: number) => void} pressed  a key that runs a command, and when
  */
 
 /** @type {(parts: Parts) => void} */
-export function listenToKeys({ run, state, pointer, pressed }) {
+export function listenToKeys({ perform, state, pointer, pressed }) {
   const held = (/** @type {KeyboardEvent} */ event, /** @type {boolean} */ down) => {
     const what = heldBy(event);
     if (what === "pan") pointer.panKey = down;
@@ -44,7 +44,7 @@ export function listenToKeys({ run, state, pointer, pressed }) {
     const command = commandOf(event);
     if (!command) return false;
     pressed(event.timeStamp);
-    return run(command);
+    return perform(command);
   });
   listen("keyup", (event) => held(event, false));
   window.addEventListener("blur", () => {

@@ -5,7 +5,7 @@
  */
 
 import { grown } from "../geometry/bounds.js";
-import { fitted, onDevicePixels, panned, revealing, zoomed } from "../geometry/view.js";
+import { viewOf, onDevicePixels, panned, revealing, zoomed } from "../geometry/view.js";
 
 /** @typedef {import("../protocol.js").Image} Image */
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
@@ -35,7 +35,7 @@ export class Viewport {
     this.#image = image;
     const known = this.#views.get(image.id);
     if (!same && known) this.#show(known);
-    else if (!same) this.fit();
+    else if (!same) this.showAll();
   }
 
   /** What was in the middle stays there. @type {(size: Size) => void} */
@@ -43,7 +43,7 @@ export class Viewport {
     const first = this.size.width === 0;
     const [dx, dy] = [(width - this.size.width) / 2, (height - this.size.height) / 2];
     this.size = { width, height };
-    if (first) this.fit();
+    if (first) this.showAll();
     else this.panBy(dx, dy);
   }
 
@@ -60,24 +60,24 @@ export class Viewport {
 
   /** @type {(x: number, y: number, factor: number) => void} */
   zoomAt(x, y, factor) {
-    this.#show(zoomed(this.view, { x, y, factor, smallest: this.#fittingView().scale / 4 }));
+    this.#show(zoomed(this.view, { x, y, factor, smallest: this.#viewOfAll().scale / 4 }));
   }
 
   /** Shows the whole photo. */
-  fit() {
-    this.#show(this.#fittingView());
+  showAll() {
+    this.#show(this.#viewOfAll());
   }
 
-  #fittingView() {
+  #viewOfAll() {
     const { width, height } = this.#image ?? { width: 1, height: 1 };
-    return fitted({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
+    return viewOf({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
   }
 
   /** Brings a part of the photo into view. @type {(bounds: Bounds, how: {close: boolean}) => void} */
   reveal(bounds, { close }) {
     const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
     this.#show(
-      close ? fitted(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
+      close ? viewOf(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
     );
   }
 }

@@ -40,8 +40,8 @@ export class Outbox {
    */
   adopt(prefix) {
     const first = this.#next;
-    for (const { key, set, place, edits } of storedUnder(this.#storage, prefix)) {
-      edits.forEach((edit, i) => this.#put(edit, { set: first + set, place: place + i, stored: key }));
+    for (const { key, set, index, edits } of storedUnder(this.#storage, prefix)) {
+      edits.forEach((edit, i) => this.#put(edit, { set: first + set, index: index + i, stored: key }));
       // Written anew before it is taken away: a crash in between leaves edits twice, which does no harm.
       if (this.#entries.get(edits[0].id)?.key !== key) this.#take(key);
     }
@@ -54,13 +54,13 @@ export class Outbox {
    */
   add(edits) {
     const set = this.#next;
-    edits.forEach((edit, place) => this.#put(edit, { set, place }));
+    edits.forEach((edit, index) => this.#put(edit, { set, index }));
   }
 
-  /** @type {(edit: Edit, where: {set: number, place: number, stored?: string}) => void} */
-  #put(edit, { set, place, stored }) {
+  /** @type {(edit: Edit, where: {set: number, index: number, stored?: string}) => void} */
+  #put(edit, { set, index, stored }) {
     if (this.#entries.has(edit.id)) return;
-    const entry = { key: keyOf(this.#prefix, set, place), set, held: false, edit };
+    const entry = { key: keyOf(this.#prefix, set, index), set, held: false, edit };
     this.#entries.set(edit.id, entry);
     this.#ofAnnotation.set(edit.annotation, [...this.#entriesOf(edit.annotation), entry]);
     this.#next = Math.max(this.#next, set + 1);

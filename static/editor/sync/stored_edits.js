@@ -1,19 +1,19 @@
 /**
  * How edits stand in the browser's storage: a key is the prefix of a tab, the number of the change set, and
- * the place of the edit in it; sorted, the keys are in the order of sending. Older versions kept a whole
+ * the index of the edit in it; sorted, the keys are in the order of sending. Older versions kept a whole
  * change set under one key, which ends with its number.
  *
  * @module
  */
 
 /** @typedef {import("../protocol.js").Edit} Edit */
-/** @typedef {{key: string, set: number, place: number, edits: Edit[]}} Stored  `place` of the first of the edits */
+/** @typedef {{key: string, set: number, index: number, edits: Edit[]}} Stored  `index` of the first of the edits */
 
 const SUFFIX = /^(\d{9,})(?:\.(\d{6,}))?$/;
 
-/** @type {(prefix: string, set: number, place: number) => string} */
-export function keyOf(prefix, set, place) {
-  return `${prefix}${String(set).padStart(9, "0")}.${String(place).padStart(6, "0")}`;
+/** @type {(prefix: string, set: number, index: number) => string} */
+export function keyOf(prefix, set, index) {
+  return `${prefix}${String(set).padStart(9, "0")}.${String(index).padStart(6, "0")}`;
 }
 
 /** @type {(storage: Storage | null, prefix: string) => string[]} */
@@ -26,9 +26,9 @@ export function keysWith(storage, prefix) {
 /** The edits under a prefix in their order; what cannot be read is passed over. @type {(storage: Storage | null, prefix: string) => Stored[]} */
 export function storedUnder(storage, prefix) {
   return keysWith(storage, prefix).flatMap((key) => {
-    const [, set, place] = SUFFIX.exec(key.slice(prefix.length)) ?? [];
+    const [, set, index] = SUFFIX.exec(key.slice(prefix.length)) ?? [];
     const edits = set === undefined ? [] : editsIn(storage?.getItem(key) ?? "");
-    return edits.length ? [{ key, set: Number(set), place: Number(place ?? 0), edits }] : [];
+    return edits.length ? [{ key, set: Number(set), index: Number(index ?? 0), edits }] : [];
   });
 }
 

@@ -27,7 +27,10 @@ function sections() {
   const { groups, layers, held, gestures } = DECLARED;
   return [
     ...groups.map(({ title, commands }) => section(title, commands)),
-    section("Show or hide", layers.map(({ key, words }) => ({ keys: [key], words }))),
+    section(
+      "Show or hide",
+      layers.map(({ key, words }) => ({ keys: [key], words })),
+    ),
     section("Pointer", [
       ...gestures.map(({ gesture, words }) => ({ keys: [gesture], words })),
       ...held.map(({ key, words }) => ({ keys: [`Hold ${key}`], words })),

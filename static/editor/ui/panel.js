@@ -7,7 +7,7 @@
 /**
  * @typedef {Object} Callbacks
  * @property {(image: number, select: string | null) => void} open
- * @property {(command: string) => void} run
+ * @property {(command: string) => void} perform
  * @property {(tool: string) => void} use
  */
 
@@ -25,12 +25,12 @@ export function listenToPanel(callbacks) {
 }
 
 /** @type {(target: Element, callbacks: Callbacks) => void} */
-function carryOut(target, { open, run, use }) {
+function carryOut(target, { open, perform, use }) {
   const button = target.closest("[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool]");
   if (!(button instanceof HTMLElement)) return;
   const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool } = button.dataset;
   if (fairyringOpen) open(Number(fairyringOpen), fairyringSelect || null);
-  if (fairyringCommand) run(fairyringCommand);
+  if (fairyringCommand) perform(fairyringCommand);
   if (fairyringTool) use(fairyringTool);
 }
 

@@ -23,7 +23,11 @@ test("dragging the rim changes the radius by what the pointer moved outwards", (
 });
 
 test("a rim dragged onto the centre leaves a circle of one pixel", () => {
-  const moved = movedHandle(newCap({ mark: CIRCLE }), { kind: "rim" }, { dx: 0, dy: -20, from: [50, 70], pull: 0 });
+  const moved = movedHandle(
+    newCap({ mark: CIRCLE }),
+    { kind: "rim" },
+    { dx: 0, dy: -20, from: [50, 70], pull: 0 },
+  );
   assert.deepEqual(moved.mark, { ...CIRCLE, r: 1 });
 });
 

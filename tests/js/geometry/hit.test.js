@@ -41,7 +41,10 @@ test("a labelled cap is picked rather than its prediction, but a nested predicti
 });
 
 test("beside every cap the nearest outline within reach is picked", () => {
-  const all = [shapeOf("left", [0, 0, 10, 0, 10, 10, 0, 10]), shapeOf("right", [20, 0, 30, 0, 30, 10, 20, 10])];
+  const all = [
+    shapeOf("left", [0, 0, 10, 0, 10, 10, 0, 10]),
+    shapeOf("right", [20, 0, 30, 0, 30, 10, 20, 10]),
+  ];
   assert.equal(pick(all, [14, 5], 6)?.uid, "left");
   assert.equal(pick(all, [16, 5], 6)?.uid, "right");
   assert.equal(pick(all, [15, 40], 6), null);

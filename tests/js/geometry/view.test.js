@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { fitted, revealing, toImage, zoomed } from "../../../static/editor/geometry/view.js";
+import { viewOf, revealing, toImage, zoomed } from "../../../static/editor/geometry/view.js";
 import { chances } from "../support/chances.js";
 
 const SIZE = { width: 1016, height: 850 };
@@ -30,8 +30,8 @@ test("zooming stops at the smallest scale without drifting", () => {
   assert.deepEqual(zoomed(view, { x: 300, y: 200, factor: 0.1, smallest: 0.5 }), view);
 });
 
-test("fitting centres the whole photo inside the margin", () => {
-  const { scale, x, y } = fitted({ x0: 0, y0: 0, x1: 1280, y1: 720 }, SIZE, 12);
+test("showing all centres the photo inside the margin", () => {
+  const { scale, x, y } = viewOf({ x0: 0, y0: 0, x1: 1280, y1: 720 }, SIZE, 12);
   assertClose(scale, (1016 - 24) / 1280);
   assertClose(x, 12);
   assertClose(y, (850 - 720 * scale) / 2);

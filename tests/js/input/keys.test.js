@@ -6,7 +6,10 @@ import { ACTIONS } from "../../../static/editor/input/actions.js";
 import { commandOf, commandOfLayer, heldBy } from "../../../static/editor/input/keys.js";
 
 const COMMANDS = DECLARED.groups.flatMap(({ commands }) => commands);
-const NAMES = [...COMMANDS.map(({ name }) => name), ...DECLARED.layers.map(({ name }) => commandOfLayer(name))];
+const NAMES = [
+  ...COMMANDS.map(({ name }) => name),
+  ...DECLARED.layers.map(({ name }) => commandOfLayer(name)),
+];
 
 /** What the browser tells of a key. @type {(fields: Partial<import("../../../static/editor/input/keys.js").Chord>) => import("../../../static/editor/input/keys.js").Chord} */
 const chord = (fields) => {

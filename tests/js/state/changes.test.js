@@ -50,7 +50,10 @@ test("undoing is made on the revision that the cap has now", () => {
   const history = new History();
   history.push([{ before: U, after: MOVED }]);
   const now = { ...MOVED, revision: 8 };
-  assert.deepEqual(history.undo(() => now), [{ before: now, after: { ...U, revision: 8 } }]);
+  assert.deepEqual(
+    history.undo(() => now),
+    [{ before: now, after: { ...U, revision: 8 } }],
+  );
   assert.deepEqual(history.depth, { undo: 0, redo: 1 });
   assert.deepEqual(history.redo(() => ({ ...U, revision: 9 }))?.[0].after, { ...MOVED, revision: 9 });
 });
@@ -64,8 +67,17 @@ test("a new change ends what could be redone; what others changed cannot be undo
     { before: U, after: MOVED },
     { before: null, after: v },
   ]);
-  assert.equal(history.redo(() => U), null);
+  assert.equal(
+    history.redo(() => U),
+    null,
+  );
   history.forget(new Set(["u"]));
-  assert.deepEqual(history.undo(() => v)?.map(({ after }) => after.uid), ["v"]);
-  assert.equal(history.undo(() => v), null);
+  assert.deepEqual(
+    history.undo(() => v)?.map(({ after }) => after.uid),
+    ["v"],
+  );
+  assert.equal(
+    history.undo(() => v),
+    null,
+  );
 });

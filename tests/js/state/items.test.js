@@ -32,8 +32,12 @@ function someCap(random) {
 function happen(state, random, step) {
   const one = state.items.all[random.chance(Math.max(1, state.items.all.length))];
   const what = random.chance(8);
-  if (what < 3 || !one) state.store.apply([{ before: null, after: storedShape(`new ${step}`, someCap(random)) }]);
-  else if (what < 5) state.store.apply([changed(one, { ...one, cap: { ...someCap(random), prediction: one.cap.prediction } })]);
+  if (what < 3 || !one)
+    state.store.apply([{ before: null, after: storedShape(`new ${step}`, someCap(random)) }]);
+  else if (what < 5)
+    state.store.apply([
+      changed(one, { ...one, cap: { ...someCap(random), prediction: one.cap.prediction } }),
+    ]);
   else if (what === 5) state.store.apply([changed(one, { ...one, deleted: true })]);
   else if (what === 6) state.layers.visible = { ...state.layers.visible, prediction: random.chance(2) === 0 };
   else state.predict(Array.from({ length: 30 }, (_, i) => prediction(1000 * step + i, [somewhere(random)])));
@@ -65,7 +69,10 @@ for (let seed = 0; seed < 10; seed++) {
 }
 
 test("every item is found by its uid as it is now, and one that is gone is not", () => {
-  const { state } = openState({ shapes: [storedShape("u", capOf(triangle(0)))], predictions: [prediction(1)] });
+  const { state } = openState({
+    shapes: [storedShape("u", capOf(triangle(0)))],
+    predictions: [prediction(1)],
+  });
   const before = state.items.get("u");
   assert.ok(before);
   state.store.apply([{ before, after: { ...before, revision: 2 } }]);

@@ -17,9 +17,9 @@ export class MemoryStorage {
     return this.#entries.size;
   }
 
-  /** @type {(index: number) => string | null} */
+  /** A browser has its own order of keys; here the newest comes first. @type {(index: number) => string | null} */
   key(index) {
-    return [...this.#entries.keys()][index] ?? null;
+    return [...this.#entries.keys()].at(-1 - index) ?? null;
   }
 
   /** @type {(key: string) => string | null} */

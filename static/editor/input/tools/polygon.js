@@ -66,7 +66,8 @@ export class PolygonTool {
   drag(press) {
     this.#next = press.image;
     const last = this.#points.at(-1);
-    if (last && apart(toScreen(this.#state.viewport.view, ...last), press.screen) >= FREEHAND_PX) this.#add(press);
+    if (last && apart(toScreen(this.#state.viewport.view, ...last), press.screen) >= FREEHAND_PX)
+      this.#add(press);
     this.#state.signals.overlay.emit();
   }
 

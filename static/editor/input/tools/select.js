@@ -130,7 +130,8 @@ export class SelectTool {
     const dx = hundredths(press.image[0] - start.image[0]);
     const dy = hundredths(press.image[1] - start.image[1]);
     if (grip.kind === "handle") this.#dragHandle(grip, dx, dy, press.alt);
-    else if (grip.kind === "shape") this.#state.propose(grip.shapes.map((shape) => movedShape(shape, dx, dy)));
+    else if (grip.kind === "shape")
+      this.#state.propose(grip.shapes.map((shape) => movedShape(shape, dx, dy)));
     else if (grip.kind === "band") this.#band(grip, press);
     else this.#state.viewport.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
     this.#last = press.screen;
