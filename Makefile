@@ -51,7 +51,8 @@ $(PYTHON_READY):
 
 $(PRODUCT): $(PYTHON_READY)
 	@echo "Installing what Fairyring needs into .venv/; the first time this takes minutes (README.md says how much it downloads)."
-	$(BIN)/python -m pip install --quiet --editable .
+	@# setuptools warns at length of folders called fairyring, of which there are none.
+	PYTHONWARNINGS="ignore:Editable installation" $(BIN)/python -m pip install --quiet --editable .
 	@rm -f .venv/product-* && touch $@
 
 $(DEVELOPMENT): $(PRODUCT)

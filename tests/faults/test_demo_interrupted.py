@@ -67,7 +67,8 @@ def test_an_interrupted_demo_is_gone_on_with(
     assert interrupted(folder, when=when, by=by) == code
     predictions = rows(folder, "prediction")
     if when is is_rendering:
-        bed = next((beds_of(folder) / "images").glob("*.jpg"))
+        whole = next((beds_of(folder) / ".parts").glob("*.json"))
+        bed = beds_of(folder) / "images" / f"bed_{whole.stem}.jpg"
         # Rendered again it would lack this.
         bed.write_bytes(bed.read_bytes() + b"kept")
 
