@@ -41,7 +41,7 @@ with open_project(folder) as project:
 IMPORTER = """
 import os, signal, sys
 from pathlib import Path
-from fairyring.storage.importing import run as importing
+from fairyring.storage.importing import paths as importing
 from fairyring.storage.project import open_project
 
 def die(*_, **__):
