@@ -4,20 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from threading import Lock
 
 import msgspec
+import numpy as np
 
-from fairyring.model.contour.fitted_image import fitted_image
+from fairyring.model.contour.fitted_image import fitted_image, within_reach
 from fairyring.model.contour.priors import DEFAULT
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
 from fairyring.model.contour.statistics import Statistics, usual_statistics
+from fairyring.model.geometry.boxes import Box, box_of_outline
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
-"""How many silhouettes of former outlines are kept: a drag makes many, and may go back."""
+"""How many former outlines are remembered: a drag makes many, and may go back."""
+
+
+@dataclass(slots=True)
+class _Known:
+    """What is remembered of an outline."""
+
+    outline: Outline
+    box: Box
+    silhouette: Silhouette | None = None
+    """None until it is first needed."""
 
 
 class Fitting:
@@ -29,7 +41,8 @@ class Fitting:
     def __init__(self, image: Image, statistics: Statistics | None) -> None:
         """Fits by these statistics; None measures them on the outlines that are first visible."""
         self._image = image
-        self._silhouettes: dict[int, tuple[Outline, Silhouette]] = {}
+        self._outlines: dict[int, _Known] = {}
+        self._measured = statistics is not None
         self._latest = fitted_image([], width=image.width, height=image.height, statistics=statistics)
         self._lock = Lock()
 
@@ -43,18 +56,34 @@ class Fitting:
     ) -> list[Reconstruction]:
         """Reconstructs some outlines among all those ``visible`` in the image; all were checked before."""
         with self._lock:
-            caps = {id(outline): self._silhouette(outline) for outline in visible}
-            self._latest = self._latest.with_caps(caps.values())
-            if len(self._silhouettes) > len(caps) + MOST_SPARE:
-                self._silhouettes = {key: self._silhouettes[key] for key in caps}
-            return self._latest.reconstructions([self._silhouette(outline) for outline in wanted])
+            known = [self._known(outline) for outline in visible]
+            near = self._near(wanted, known) if self._measured else [True] * len(known)
+            # What was near once stays: it costs nothing, and may be near again.
+            shown = [each for each, is_near in zip(known, near, strict=True) if is_near or each.silhouette]
+            self._latest = self._latest.with_caps([self._seen(each) for each in shown])
+            self._measured = True
+            found = self._latest.reconstructions([self._seen(self._known(outline)) for outline in wanted])
+            if len(self._outlines) > len(known) + MOST_SPARE:
+                self._outlines = {id(each.outline): each for each in known}
+            return found
 
-    def _silhouette(self, outline: Outline) -> Silhouette:
-        known = self._silhouettes.get(id(outline))
+    def _near(self, wanted: Sequence[Outline], known: Sequence[_Known]) -> list[bool]:
+        ids = {id(outline) for outline in wanted}
+        is_wanted = np.array([id(each.outline) in ids for each in known], np.bool_)
+        boxes = np.array([each.box for each in known], np.float64).reshape(-1, 4)
+        return within_reach(boxes, is_wanted).tolist()
+
+    def _known(self, outline: Outline) -> _Known:
+        known = self._outlines.get(id(outline))
         if known is None:
-            size = {"width": self._image.width, "height": self._image.height}
-            known = self._silhouettes[id(outline)] = outline, silhouette_of_outline(outline, **size)
-        return known[1]
+            known = self._outlines[id(outline)] = _Known(outline, box_of_outline(outline))
+        return known
+
+    def _seen(self, known: _Known) -> Silhouette:
+        if known.silhouette is None:
+            width, height = self._image.width, self._image.height
+            known.silhouette = silhouette_of_outline(known.outline, width=width, height=height)
+        return known.silhouette
 
 
 def known_statistics(image: Image) -> Statistics:

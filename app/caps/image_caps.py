@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from fairyring.app.caps.fitting import Fitting, known_statistics
-from fairyring.storage.records import Annotation, Image, ImageContents, Outline, Prediction
+from fairyring.model.geometry.outline_checks import check_outline
+from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Outline, Prediction
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,21 @@ class ImageCaps:
         """What is visible of all caps but this one and the prediction it started from."""
         own = (uid, key_of(prediction))
         return [outline for key, outline in self.visible.items() if key not in own]
+
+    @cached_property
+    def _prediction(self) -> dict[int, Prediction]:
+        return {prediction.id: prediction for prediction in self.predictions}
+
+    def checked_outline(self, uid: str, cap: Cap) -> Outline:
+        """The visible outline of a cap, checked: the very one known already where it is left as it was.
+
+        Raises GeometryError.
+        """
+        before, said = self.annotations.get(uid), self._prediction.get(cap.prediction or 0)
+        for known in (before and before.cap.visible, said and said.visible):
+            if known and known == cap.visible:
+                return known
+        return check_outline(cap.visible, width=self.image.width, height=self.image.height)
 
     def with_annotations(self, annotations: Mapping[str, Annotation]) -> ImageCaps:
         """The same image with other annotations."""

@@ -6,7 +6,7 @@ Every answer about a cap, live or stored, comes from `Fitting`, so that all of t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -16,13 +16,13 @@ from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.contour.result import Reconstruction
-from fairyring.model.geometry.outline_checks import check_mark, check_outline, usable_outline
+from fairyring.model.geometry.outline_checks import check_mark
 from fairyring.model.geometry.shapes import Circle, Fit, GeometryError, Polygon, fit_of_shape
 from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline
+from fairyring.storage.records import Annotation, Cap, Edit, Mark, Outline
 
 TELLING = 0.005
 """A stored centre that a new fit would move by less than this, pixels, is as good as new."""
@@ -35,14 +35,14 @@ def reconstruction_of(uid: str, cap: Cap, caps: ImageCaps) -> Reconstruction:
     anything wild; the others were checked before.
     """
     try:
-        given = _given(cap, caps.image)
+        if cap.mark is not None:
+            return fit_of_mark(check_mark(cap.mark, width=caps.image.width, height=caps.image.height))
+        outline = caps.checked_outline(uid, cap)
     except GeometryError as error:
         return Reconstruction(fit=Fit(refusal=str(error)))
-    if isinstance(given, Reconstruction):
-        return given
-    visible = [*caps.visible_beside(uid, prediction=cap.prediction), given]
-    (found,) = caps.fitting.reconstructions([given], visible=visible)
-    stored = _stored(uid, given, caps)
+    visible = [*caps.visible_beside(uid, prediction=cap.prediction), outline]
+    (found,) = caps.fitting.reconstructions([outline], visible=visible)
+    stored = _stored(uid, outline, caps)
     return found if stored is None else _as_stored(found, stored)
 
 
@@ -91,13 +91,6 @@ def fit_of_mark(mark: Mark) -> Reconstruction:
     return Reconstruction(fit=fit_of_shape(shape), why=f"the marked {kind}")
 
 
-def _given(cap: Cap, image: Image) -> Reconstruction | Outline:
-    """The whole outline of a cap's mark, else its checked visible outline. Raises GeometryError."""
-    if cap.mark is not None:
-        return fit_of_mark(check_mark(cap.mark, width=image.width, height=image.height))
-    return check_outline(cap.visible, width=image.width, height=image.height)
-
-
 def _stored(uid: str, outline: Outline, caps: ImageCaps) -> Fit | None:
     """The stored fit of an annotation whose outline is unchanged, which it keeps; else None."""
     before = caps.annotations.get(uid)
@@ -121,35 +114,41 @@ def _as_stored(found: Reconstruction, stored: Fit) -> Reconstruction:
 
 def _fits_of_edits(edits: Sequence[Edit], caps: ImageCaps) -> dict[str, Fit]:
     """Fits by edit id; none for deletions, nor for edits that a later one of the set replaces."""
-    after = caps.with_annotations(_edited(caps, edits))
+    outlines = {edit.id: _checked(edit.annotation, edit.cap, caps) for edit in edits if edit.cap is not None}
+    after = caps.with_annotations(_edited(caps, edits, outlines))
     fits: dict[str, Fit] = {}
     wanted: dict[str, Outline] = {}
     for edit in {edit.annotation: edit for edit in edits}.values():
         if edit.cap is None:
             continue
-        try:
-            given = _given(edit.cap, caps.image)
-        except GeometryError as error:
-            fits[edit.id] = Fit(refusal=str(error))
-            continue
-        if isinstance(given, Reconstruction):
-            fits[edit.id] = given.fit
-        elif (stored := _stored(edit.annotation, given, caps)) is not None:
+        outline = outlines[edit.id]
+        if edit.cap.mark is not None or outline is None:
+            fits[edit.id] = reconstruction_of(edit.annotation, edit.cap, caps).fit
+        elif (stored := _stored(edit.annotation, outline, caps)) is not None:
             fits[edit.id] = stored
         else:
-            wanted[edit.id] = after.visible[edit.annotation]
+            wanted[edit.id] = outline
     found = caps.fitting.reconstructions(list(wanted.values()), visible=after.visible.values())
     return fits | {edit: each.fit for edit, each in zip(wanted, found, strict=True)}
 
 
-def _edited(caps: ImageCaps, edits: Sequence[Edit]) -> dict[str, Annotation]:
+def _checked(uid: str, cap: Cap, caps: ImageCaps) -> Outline | None:
+    """The checked outline of a cap; None where it cannot be used."""
+    try:
+        return caps.checked_outline(uid, cap)
+    except GeometryError:
+        return None
+
+
+def _edited(
+    caps: ImageCaps, edits: Sequence[Edit], outlines: Mapping[str, Outline | None]
+) -> dict[str, Annotation]:
     """The annotations once these edits are accepted; of outlines that cannot be used nothing is visible."""
     annotations = dict(caps.annotations)
-    size = {"width": caps.image.width, "height": caps.image.height}
     for edit in edits:
         known = annotations.get(edit.annotation)
         if edit.cap is not None:
-            cap = msgspec.structs.replace(edit.cap, visible=usable_outline(edit.cap.visible, **size))
+            cap = msgspec.structs.replace(edit.cap, visible=outlines[edit.id] or [])
             annotations[edit.annotation] = Annotation(
                 uid=edit.annotation, image=edit.image, revision=edit.base, cap=cap
             )

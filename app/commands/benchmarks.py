@@ -64,6 +64,24 @@ def page(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
 
 @commands.command()
+def fit(
+    *,
+    real: Annotated[
+        Path | None, typer.Option(help="Folder of photos to predict by the shipped weights, measured too.")
+    ] = None,
+    quick: Quick = False,
+    as_json: AsJson = False,
+) -> None:
+    """Time whole outlines by every way to ask for them, and check that all give the same.
+
+    Example: `fairyring bench fit --real photos --json`
+    """
+    from fairyring.app.bench.fits import fit_rows
+
+    print_rows("fit", fit_rows(quick=quick, real=real), as_json=as_json)
+
+
+@commands.command()
 def scene(
     *,
     real: Annotated[

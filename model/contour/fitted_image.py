@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from threading import RLock
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fairyring.model.contour.batch import first_caps, joined, single_caps
 from fairyring.model.contour.guarded import reconstructions_of
-from fairyring.model.contour.layout import Layout, changed_layout, empty_layout
+from fairyring.model.contour.layout import NEAR, Layout, changed_layout, empty_layout
 from fairyring.model.contour.order import meetings_of, overlap_order
 from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.result import UNSEEN, Reconstruction
@@ -25,6 +28,7 @@ from fairyring.model.contour.together import (
     first_look,
     next_look,
 )
+from fairyring.model.geometry.boxes import touching
 
 
 class FittedImage:
@@ -121,15 +125,29 @@ class FittedImage:
         if not self._looks[0]:
             return image
         stale = differ | removed
-        for before, looks in zip(self._looks, image._looks, strict=True):
+        for nth, (before, looks) in enumerate(zip(self._looks, image._looks, strict=True)):
+            if nth > 0:
+                # What a look says depends on what the one before said of the neighbours, old and new.
+                old = {it for cap in stale if cap in self._layout.rims for it in self._layout.neighbours(cap)}
+                new = {it for cap in stale if cap in layout.rims for it in layout.neighbours(cap)}
+                stale = stale | old | new
             looks.update(before)
             for cap in stale:
                 looks.pop(cap, None)
-            # What a look says depends on what the one before said of the neighbours, old and new.
-            old = {it for cap in stale if cap in self._layout.rims for it in self._layout.neighbours(cap)}
-            new = {it for cap in stale if cap in layout.rims for it in layout.neighbours(cap)}
-            stale = stale | old | new
         return image
+
+
+def within_reach(boxes: NDArray[np.float64], wanted: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,), which caps can matter to the wanted ones (n,), by the boxes (n, 4) of their outlines, pixels.
+
+    The others may be left out of the image without a change in what is known of the wanted ones.
+    """
+    near = wanted
+    # Outlines are rounded out to whole pixels.
+    margin = np.array([-1, -1, 1, 1]) * (NEAR + 2)
+    for _ in range(LOOKS):
+        near = np.logical_or.reduce(touching(boxes[near] + margin, boxes), axis=0)
+    return near
 
 
 def fitted_image(

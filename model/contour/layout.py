@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import compress
 
 import numpy as np
@@ -29,7 +30,7 @@ class Touch:
     """The caps it touches, with their numbers, in order."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Layout:
     """The caps of an image, each with something to see."""
 
@@ -45,15 +46,21 @@ class Layout:
 
     def near(self, *caps: Silhouette) -> list[Silhouette]:
         """The caps that might touch any of these, of which there is one or more; these among them."""
-        left, top = np.min([cap.box[:2] for cap in caps], axis=0)
-        right, bottom = np.max([cap.box[2:] for cap in caps], axis=0)
-        around = np.array([[left - NEAR, top - NEAR, right + NEAR, bottom + NEAR]])
+        left, top, right, bottom = zip(*(cap.box for cap in caps), strict=True)
+        around = np.array([[min(left) - NEAR, min(top) - NEAR, max(right) + NEAR, max(bottom) + NEAR]])
         return [self.caps[at] for at in np.flatnonzero(touching(around, self.boxes)).tolist()]
 
     def neighbours(self, cap: Silhouette) -> set[Silhouette]:
         """The caps whose borders with this one are decided on together with its own."""
-        touched_by = {other for other in self.near(cap) if cap in self.touches[other].others}
-        return touched_by.union(self.touches[cap].others)
+        return self._touched_by[cap].union(self.touches[cap].others)
+
+    @cached_property
+    def _touched_by(self) -> Mapping[Silhouette, set[Silhouette]]:
+        found: dict[Silhouette, set[Silhouette]] = {cap: set() for cap in self.caps}
+        for cap, touch in self.touches.items():
+            for other in touch.others:
+                found[other].add(cap)
+        return found
 
     def batch(self, caps: Sequence[Silhouette]) -> tuple[Rims, Contact]:
         """The rims of these n ≥ 1 caps, and their contact with each other, neighbours by index among them."""

@@ -67,5 +67,7 @@ export function expose(host, { state: editorState, frame, waiting, connection, t
       return tool();
     },
   };
-  Object.assign(window, { fairyring: { view, state, timings: frame.timings } });
+  /** Calls back once all that is known is drawn. @type {(then: () => void) => void} */
+  const whenDrawn = (then) => frame.whenComplete(then);
+  Object.assign(window, { fairyring: { view, state, timings: frame.timings, whenDrawn } });
 }

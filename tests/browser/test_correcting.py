@@ -103,6 +103,18 @@ def test_a_selected_cap_tells_its_arcs_and_its_doubt_and_goes_on_telling_while_d
     assert tab.state("fit") is None
 
 
+def test_predictions_accepted_as_they_are_keep_outline_and_centre(tab: Tab, project: Path) -> None:
+    said = {p["cap"]["prediction"]: (p["whole"], p["centre"]) for p in tab.state("predictions")}
+    promote(tab)
+    tab.press("Escape", "Shift+A")
+    tab.wait_for("window.fairyring.state.predictions.length === 0")
+    tab.saved()
+    shown = {s["cap"]["prediction"]: (s["whole"], s["centre"]) for s in tab.state("shapes")}
+    assert shown == said
+    kept = [kept_cap(project, uid) for uid in live_caps(project)]
+    assert {k["prediction"]: (k["whole"], [k["centre_x"], k["centre_y"]]) for k in kept if k} == said
+
+
 def draw_outline(tab: Tab) -> str:
     """Draws a cap of five corners on bare soil by clicks and returns its uid."""
     tab.press("w")

@@ -17,7 +17,8 @@ from playwright.sync_api import Browser
 from fairyring.app.bench.browser import stopwatch
 from fairyring.app.bench.browser.leafing import VIEWPORT, jump, leaf, measured_tab
 from fairyring.app.bench.browser.tab import Point, Tab, centroid, chromium
-from fairyring.app.bench.plain import synced_inserts
+from fairyring.app.bench.crowd import CROWD, CROWD_PHOTO, add_crowd
+from fairyring.app.bench.plain import inserted_at_once, synced_inserts
 from fairyring.app.bench.projects import Bed, make_project
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, p95_row
@@ -41,13 +42,17 @@ def editor_rows(*, quick: bool = False) -> list[Row]:
         folder = Path(name)
         beds = [bed for bed, _ in CROWDS.values()]
         beds += [bed for size in SIZES for bed in _album(size, switches)]
-        with make_project(folder, beds) as project, project.read() as connection:
-            page = list_images(connection, ImageFilter(), limit=len(beds))
+        with make_project(folder, beds) as project:
+            add_crowd(project, folder / "crowd")
+            with project.read() as connection:
+                page = list_images(connection, ImageFilter(), limit=len(beds) + 1)
         ids = {row.image.file_name: row.image.id for row in page.rows}
         blank = _blank(browser, moves)
         with served(folder / "project") as server, measured_tab(browser, server) as tab:
             rows = [row for crowd in CROWDS for row in _pointer(tab, ids, crowd, moves=moves, blank=blank)]
             rows += _editing(tab, ids, folder, count=edits)
+            rows += _accepting(tab, ids, folder, times=1 if quick else 5)
+            rows += _dragging_in_a_crowd(tab, moves)
             rows += [row for size in SIZES for row in _switching(tab, ids, size, count=switches)]
             return rows
 
@@ -143,6 +148,36 @@ def _editing(tab: Tab, ids: Ids, folder: Path, *, count: int) -> list[Row]:
     reference = synced_inserts(folder / "plain.db", payload="0" * 1000)
     figure = "edit: release to on disk and acknowledged (one synced INSERT)"
     return [p95_row(figure, stopwatch.laps(tab, "saved"), target=50, reference=reference)]
+
+
+def _accepting(tab: Tab, ids: Ids, folder: Path, *, times: int) -> list[Row]:
+    """Accepts all predictions of a crowd, and takes that back, again and again."""
+    jump(tab, ids[CROWD_PHOTO])
+    caps = len(tab.state("predictions"))
+    stopwatch.start(tab)
+    drawn = []
+    for _ in range(times):
+        tab.press("Shift+A")
+        drawn.append(stopwatch.drawn_as_saved(tab))
+        tab.press("Control+z")
+        tab.saved()
+    on_disk = stopwatch.laps(tab, "accepted")[::2]
+    tab.press("Shift+A")
+    tab.saved()
+    plain = inserted_at_once(folder / "plain-accepted.db", rows=caps, payload="0" * 1000)
+    what = f"accept all {caps}: key to"
+    return [
+        p95_row(f"{what} on disk (bare INSERTs)", on_disk, target=1500, reference=[plain]),
+        p95_row(f"{what} drawn as saved (to disk)", drawn, target=3000, reference=on_disk),
+    ]
+
+
+def _dragging_in_a_crowd(tab: Tab, moves: int) -> list[Row]:
+    stopwatch.start(tab)
+    _drag(tab, moves)
+    fit, vertex = stopwatch.laps(tab, "fit"), stopwatch.laps(tab, "vertex")
+    figure = f"drag, {CROWD} on each other: move to live fit on screen (to the vertex)"
+    return [p95_row(figure, fit, target=50, reference=vertex)]
 
 
 def _switching(tab: Tab, ids: Ids, size: str, *, count: int) -> list[Row]:

@@ -12,7 +12,7 @@ SCRIPT = r"""
   }
   // Some browsers tell of a move before they tell of it to those that listen for `pointermove`.
   addEventListener("pointerrawupdate", ({ timeStamp }) => (last.pointermove = timeStamp), true);
-  const laps = { saved: [], fit: [], vertex: [] };
+  const laps = { saved: [], accepted: [], fit: [], vertex: [] };
   const asked = new Map();
   const sequence = (data) => Number(/"seq":\s*(\d+)/.exec(data)[1]);
   const after = (task) => {
@@ -26,7 +26,10 @@ SCRIPT = r"""
   const dragged = ({ buttons, timeStamp }) => buttons === 1 && onScreen("vertex", timeStamp);
   addEventListener("pointermove", dragged, true);
   function received(data) {
-    if (data.startsWith('{"type":"outcomes"')) laps.saved.push(performance.now() - last.pointerup);
+    if (data.startsWith('{"type":"outcomes"')) {
+      laps.saved.push(performance.now() - last.pointerup);
+      laps.accepted.push(performance.now() - last.keydown);
+    }
     if (data.startsWith('{"type":"fit"')) onScreen("fit", asked.get(sequence(data)));
   }
   window.WebSocket = class extends WebSocket {
@@ -84,7 +87,7 @@ def frames(tab: Tab, kind: str) -> tuple[list[float], list[float]]:
 
 
 def laps(tab: Tab, name: str) -> list[float]:
-    """Milliseconds of one kind of lap: from a release to its acknowledgement, from a move to its drawing."""
+    """Milliseconds of one kind of lap: from a release or key to its receipt, or a move to its drawing."""
     return tab.page.evaluate("name => stopwatch.laps[name]", name)
 
 
@@ -126,4 +129,17 @@ def photo_alone(tab: Tab) -> float:
             (await createImageBitmap(await answer.blob())).close();
             return performance.now() - start;
         }"""
+    )
+
+
+def drawn_as_saved(tab: Tab) -> float:
+    """Waits until every edit is acknowledged and drawn; milliseconds since a key was pressed last."""
+    return tab.page.evaluate(
+        """() => new Promise((resolve) => {
+            const look = () => {
+                if (fairyring.state.waiting > 0) return requestAnimationFrame(look);
+                fairyring.whenDrawn(() => resolve(performance.now() - stopwatch.last.keydown));
+            };
+            look();
+        })"""
     )
