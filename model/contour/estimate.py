@@ -19,7 +19,7 @@ from fairyring.model.contour.harmonic import Array
 from fairyring.model.contour.noise import PERFECT, RIPPLE_GAIN, ripple_powers
 from fairyring.model.contour.priors import DEFAULT, Priors
 from fairyring.model.contour.silhouette import Silhouette
-from fairyring.model.contour.together import Together
+from fairyring.model.contour.together import Together, reaches_around
 from fairyring.model.geometry.outline_checks import check_mark
 from fairyring.model.geometry.shapes import Circle, Shape
 
@@ -32,7 +32,7 @@ def estimate_priors(document: Document, *, source: str) -> Priors:
     """Priors from a COCO document whose annotations hold visible masks and ``ellipse`` or ``circle``.
 
     Roundness comes from the whole outlines where they are given, else from the caps in full view; the
-    harmonics from the caps in full view; size from the whole outlines against the circles around what is
+    harmonics from the caps in full view; size from the longest radii against the circles around what is
     visible; noise from the free rims of all. Ignored caps, and those without a visible outline, tell nothing.
     ``source`` is kept with the figures. Raises ContourError where something is wrong with the document, or
     there are too few caps.
@@ -52,11 +52,12 @@ def estimate_priors(document: Document, *, source: str) -> Priors:
         squares.append(_squares_in_view(together))
         rims.append(estimate.residual[together.contact.free])
         ripples.append(ripple_powers(together.rims, estimate, own).ravel())
-        for whole, around in zip(wholes.values(), together.around.log_radius.tolist(), strict=True):
+        reaches = reaches_around(together.rims, together.around).tolist()
+        for whole, reach in zip(wholes.values(), reaches, strict=True):
             if whole is not None:
                 longer, shorter = _axes(whole)
                 stretches.append(log(longer / shorter) / 2)
-                sizes.append(log(longer * shorter) / 2 - around)
+                sizes.append(log(longer) - reach)
     none = np.zeros((0, 2 + 2 * len(DEFAULT.wobble)))
     priors = _priors(np.concatenate([none, *squares]), np.array(stretches), np.array(sizes), source)
     return _with_noise(priors, np.concatenate(rims), np.concatenate(ripples))

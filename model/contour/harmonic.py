@@ -17,7 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.contour.expectation import corner_information, reach_of, roundness
 from fairyring.model.contour.priors import Priors
+from fairyring.model.contour.rims import Rims
 
 Array = NDArray[np.floating]
 
@@ -58,10 +60,16 @@ class Evidence:
     """(n, K), how probable it is that a point lies on the cap's own rim; else the cap goes on beyond it."""
     noise: float
     """Standard deviation of a point, pixels."""
-    size: Array
-    """(n,), what log r is expected to be."""
+    corner: Array
+    """(n, K), how far it counts that a point is a corner of the hull of what is visible, 0 to 1."""
+    reach: Array
+    """(n,), what the logarithm of the longest radius is expected to be."""
     stretch: float
     """How far u and v are expected to be from 0."""
+    size: float
+    """What log r of any cap of the image is expected to be."""
+    size_precision: float
+    """One over the variance of that, 0 where it is not known."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,13 +93,21 @@ def fit_outlines(
     ``softness`` multiplies the distance at which points stop to count: large figures first find the right
     valley.
     """
-    precision = _prior_precision(evidence, priors, parameters=3 + start.shape.shape[1])
     for soft in softness[:-1]:
-        start = _advance(start, evidence, precision, soft).outlines
-    last = _advance(start, evidence, precision, softness[-1])
+        start = _advance(start, evidence, priors, soft).outlines
+    last = _advance(start, evidence, priors, softness[-1])
     covariance: Array = np.linalg.inv(last.curvature)
     doubt: Array = ((covariance @ last.slope) * last.slope).sum(axis=1)
     return Estimate(last.outlines, last.residual, covariance, doubt)
+
+
+def coverage_of(rims: Rims, estimate: Estimate, own: Array) -> Array:
+    """(n,), the share of the whole rim that is in sight.
+
+    ``own`` (n, K) is how probable it is that a rim point lies on the cap's own rim.
+    """
+    around = 2 * np.pi * np.exp(estimate.outlines.log_radius)
+    return np.clip((own * rims.spacing).sum(axis=1) / around, 0, 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,15 +121,20 @@ class _Step:
     """(n, D, D), of minus the log posterior."""
 
 
-def _advance(now: Outlines, evidence: Evidence, precision: Array, soft: float) -> _Step:
+def _advance(now: Outlines, evidence: Evidence, priors: Priors, soft: float) -> _Step:
     residual, slope = _linearised(evidence.points, now)
-    weighted = slope * _weights(residual, evidence, soft)[:, None]
+    weighted = slope * _weights(residual, now, evidence, soft)[:, None]
     curvature = weighted @ slope.transpose(0, 2, 1)
+    pull = (weighted @ residual[..., None])[..., 0]
+    precision = _prior_precision(now, evidence, priors)
     diagonal = np.arange(curvature.shape[1])
     curvature[:, diagonal, diagonal] += precision
-    pull = (weighted @ residual[..., None])[..., 0]
     pull[:, 2] -= precision[:, 2] * (now.log_radius - evidence.size)
     pull[:, 3:] -= precision[:, 3:] * now.shape
+    reach = reach_of(now.log_radius, now.shape)
+    information = reach.slope * priors.size**-2
+    curvature[:, 2:5, 2:5] += information[:, :, None] * reach.slope[:, None]
+    pull[:, 2:5] -= information * (reach.log_radius - evidence.reach)[:, None]
     moved, step = _moved(now, np.linalg.solve(curvature, pull[..., None])[..., 0])
     return _Step(moved, residual - (step[:, None] @ slope)[:, 0], slope, curvature)
 
@@ -161,22 +182,28 @@ def _second_order(shape: Array, along: Array) -> Array:
     return -0.5 * np.log(np.cosh(2 * size) - (np.sinh(2 * size) / size) * along) - along
 
 
-def _weights(residual: Array, evidence: Evidence, soft: float) -> Array:
-    """How much each point pulls, (n, K); hidden ones only from outside: the cap goes on beyond them."""
+def _weights(residual: Array, now: Outlines, evidence: Evidence, soft: float) -> Array:
+    """How much each point pulls, (n, K).
+
+    Hidden ones pull from outside, for the cap goes on beyond them; from inside only corners of the hull do,
+    and little.
+    """
     cut = CUT * soft * evidence.noise
     square = (residual / cut) ** 2
     on_rim = 1 / (1 + square) ** 2
     beyond = np.where(residual > 0, 1 / (1 + square / 4), 0)
-    return evidence.weight * (evidence.seen * on_rim + (1 - evidence.seen) * beyond)
+    corners = evidence.corner * corner_information(residual, np.exp(now.log_radius))
+    hidden = evidence.weight * beyond + corners
+    return evidence.seen * evidence.weight * on_rim + (1 - evidence.seen) * hidden
 
 
-def _prior_precision(evidence: Evidence, priors: Priors, *, parameters: int) -> Array:
+def _prior_precision(now: Outlines, evidence: Evidence, priors: Priors) -> Array:
     """One over the prior variance of each parameter, (n, D)."""
-    precision = np.empty((len(evidence.points), parameters))
+    precision = np.empty((len(now.shape), 3 + now.shape.shape[1]))
     # Hardly any prior on where a cap lies: only so much that nothing is ever singular.
     precision[:, :2] = 1e-2
-    precision[:, 2] = priors.size**-2
-    precision[:, 3:5] = evidence.stretch**-2
+    precision[:, 2] = evidence.size_precision
+    precision[:, 3:5] = roundness(now.shape, stretch=evidence.stretch)[:, None]
     precision[:, 5:] = np.repeat(np.asarray(priors.wobble) ** -2.0, 2)
     return precision
 

@@ -21,6 +21,8 @@ LEAST_NOISE = 0.5
 """Borders between masks are never better known than this, pixels."""
 SPAN = 0.5
 """A hidden rim lies anywhere within so many radii beyond the border."""
+TOUCH = 0.2
+"""How probable it is, over one cap lying in front, that two only touch: they seldom do along a border."""
 WORST = 16.0
 """A squared residual in units of its variance counts no more than this."""
 
@@ -60,7 +62,11 @@ def meetings_of(contact: Contact, rims: Rims, estimate: Estimate, *, noise: floa
         np.bincount(side, score * samples, minlength=2 * len(keys)).reshape(-1, 2)
         for score in (as_rim, as_cover)
     )
-    before, behind, beside = rim[:, 0] + cover[:, 1], cover[:, 0] + rim[:, 1], rim[:, 0] + rim[:, 1]
+    before, behind, beside = (
+        rim[:, 0] + cover[:, 1],
+        cover[:, 0] + rim[:, 1],
+        rim[:, 0] + rim[:, 1] + np.log(TOUCH),
+    )
     most = np.maximum(np.maximum(before, behind), beside)
     before, behind, beside = (np.exp(score - most) for score in (before, behind, beside))
     rims_of_both = np.column_stack([before + beside, behind + beside]) / (before + behind + beside)[:, None]

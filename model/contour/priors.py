@@ -19,13 +19,13 @@ class Priors(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     stretch: float
     """Width of each of the two components (u, v) of the ellipse r·expm([[u, v], [v, −u]])."""
     stretch_hidden: float = 1.7
-    """How much wider that is for caps partly hidden: tilted caps lean under others."""
+    """How much wider that is taken to be until it is measured on an image's caps: some are tilted."""
     wobble: tuple[float, ...]
     """Width of each component of the third harmonic of the outline, the fourth, …"""
     size: float
-    """Width of log(radius / radius of the circle around what is visible)."""
+    """Width of log(longest radius / radius of the circle around what is visible)."""
     size_shift: float = 0.0
-    """Mean of log(radius / radius of the circle around what is visible)."""
+    """How much larger the mean of that is than `expected_reach` says."""
     noise: float = 0.3
     """Standard deviation of a rim point, pixels; leant on where an image shows too little rim."""
     noise_floor: float = 0.2
@@ -38,7 +38,7 @@ DEFAULT = Priors(
     source="clusters of model.scene.clusters, widened to cover photographed beds",
     stretch=0.05,
     wobble=(0.015, 0.010, 0.007),
-    size=0.2,
+    size=0.12,
 )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,6 +37,8 @@ class Rims:
     """(n,), how many contour pixels there were."""
     area: NDArray[np.float64]
     """(n,), inside the points, px²."""
+    corner: NDArray[np.bool_]
+    """(n, K), whether the points' convex hull has a corner here."""
 
 
 def rims_of(caps: Sequence[Silhouette]) -> Rims:
@@ -49,7 +52,15 @@ def rims_of(caps: Sequence[Silhouette]) -> Rims:
     outward *= np.where(_area(points) >= 0, 1, -1)[:, None, None]
     # The outermost pixel centres lie half a pixel's width inside the edge, measured along its normal.
     points = points + outward * (np.abs(outward).max(axis=-1, keepdims=True) / 2)
-    return Rims(points, outward, length / 2, pixels, np.abs(_area(points)))
+    return Rims(points, outward, length / 2, pixels, np.abs(_area(points)), _corners(points))
+
+
+def _corners(points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(n, K), where the convex hulls of closed polygons (n, K, 2) have their corners."""
+    corner = np.zeros(points.shape[:2], np.bool_)
+    for own, rim in zip(corner, (points - points[:, :1]).astype(np.float32, order="C"), strict=True):
+        own[cv2.convexHull(rim, returnPoints=False)] = True
+    return corner
 
 
 def _whole_contour(cap: Silhouette) -> Points:

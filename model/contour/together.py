@@ -17,7 +17,15 @@ import numpy as np
 
 from fairyring.model.contour.batch import first_caps
 from fairyring.model.contour.contact import NOBODY, Contact
-from fairyring.model.contour.harmonic import Array, Estimate, Evidence, Outlines, fit_outlines
+from fairyring.model.contour.expectation import corners_that_count, expected_reach
+from fairyring.model.contour.harmonic import (
+    Array,
+    Estimate,
+    Evidence,
+    Outlines,
+    coverage_of,
+    fit_outlines,
+)
 from fairyring.model.contour.noise import FIRST_NOISE, LEAST_NOISE, expected_power
 from fairyring.model.contour.order import meetings_of, seen_share
 from fairyring.model.contour.priors import Priors
@@ -60,8 +68,7 @@ class Together:
     @property
     def coverage(self) -> Array:
         """(n,), the share of the whole rim that is in sight."""
-        around = 2 * np.pi * np.exp(self.look.estimate.outlines.log_radius)
-        return np.clip((self.look.own * self.rims.spacing).sum(axis=1) / around, 0, 1)
+        return coverage_of(self.rims, self.look.estimate, self.look.own)
 
     @property
     def centre_sd(self) -> Array:
@@ -81,8 +88,11 @@ def first_look(rims: Rims, contact: Contact, priors: Priors) -> Look:
         weight=rims.spacing / expected_power(FIRST_NOISE, priors),
         seen=own,
         noise=FIRST_NOISE,
-        size=around.log_radius + priors.size_shift,
+        corner=np.zeros(own.shape),
+        reach=reaches_around(rims, around) + priors.size_shift,
         stretch=priors.stretch * priors.stretch_hidden,
+        size=0.0,
+        size_precision=0.0,
     )
     return Look(fit_outlines(evidence, around, priors, softness=FIRST_SOFTNESS), own)
 
@@ -96,16 +106,25 @@ def next_look(
     """
     meetings = meetings_of(contact, rims, before.estimate, noise=statistics.noise)
     own = seen_share(contact, meetings)[:caps]
-    rims, outlines = first_caps(rims, caps=caps), first_caps(before.estimate.outlines, caps=caps)
+    rims, estimate = first_caps(rims, caps=caps), first_caps(before.estimate, caps=caps)
     evidence = Evidence(
         points=rims.points,
         weight=rims.spacing / statistics.power,
         seen=own,
         noise=max(statistics.noise, LEAST_NOISE),
-        size=enclosing_circles(rims, priors).log_radius + priors.size_shift,
-        stretch=statistics.stretch * priors.stretch_hidden,
+        corner=corners_that_count(rims.corner, coverage_of(rims, estimate, own)),
+        reach=reaches_around(rims, enclosing_circles(rims, priors)) + priors.size_shift,
+        stretch=statistics.stretch,
+        size=statistics.size,
+        size_precision=statistics.size_precision,
     )
-    return Look(fit_outlines(evidence, outlines, priors, softness=NEXT_SOFTNESS), own)
+    return Look(fit_outlines(evidence, estimate.outlines, priors, softness=NEXT_SOFTNESS), own)
+
+
+def reaches_around(rims: Rims, around: Outlines) -> Array:
+    """(n,), the expected logarithms of the longest radii, from the circles around the rims."""
+    fill = rims.area / (np.pi * np.exp(2 * around.log_radius))
+    return around.log_radius + expected_reach(fill)
 
 
 def enclosing_circles(rims: Rims, priors: Priors) -> Outlines:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,15 +11,24 @@ from fairyring.model.geometry.shapes import Ellipse, points_on_ellipse
 ANGLES = np.linspace(0, 2 * np.pi, 48, endpoint=False)
 
 
-def evidence(points: np.ndarray, *, seen: np.ndarray | None = None, radius: float = 40.0) -> Evidence:
+def evidence(
+    points: np.ndarray,
+    *,
+    seen: np.ndarray | None = None,
+    corner: np.ndarray | None = None,
+    radius: float = 40.0,
+) -> Evidence:
     count = len(points)
     return Evidence(
         points=points[None],
         weight=np.full((1, count), 5.0),
         seen=np.ones((1, count)) if seen is None else seen[None],
         noise=0.5,
-        size=np.log([radius]),
+        corner=np.zeros((1, count)) if corner is None else corner[None],
+        reach=np.log([radius]),
         stretch=0.1,
+        size=0.0,
+        size_precision=0.0,
     )
 
 
@@ -70,6 +81,30 @@ def test_a_hidden_point_holds_the_outline_from_inside_only():
     outside = np.where(hidden[:, None], (300, 200) + 1.03 * (rim - (300, 200)), rim)
     pushed = fitted(evidence(outside, seen=(~hidden).astype(float)), circle(300, 200, 38)).outlines
     assert pushed.centre[0, 1] > 200.1
+
+
+def test_a_hidden_corner_of_the_hull_draws_the_outline_towards_it():
+    rim = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), ANGLES)
+    hidden = (ANGLES > 0.3) & (ANGLES < 2.8)
+    border = np.where(hidden[:, None], (300, 200) + 0.6 * (rim - (300, 200)), rim)
+    border[12] = (300, 230)
+    seen = (~hidden).astype(float)
+    corner = (np.arange(48) == 12).astype(float)
+    alone = fitted(evidence(border, seen=seen), circle(300, 200, 40)).outlines
+    drawn = fitted(evidence(border, seen=seen, corner=corner), circle(300, 200, 40)).outlines
+    assert drawn.centre[0, 1] < alone.centre[0, 1] - 0.1
+    # The corner lies 10 px inside the true rim; what is visible of that keeps the outline from following far.
+    assert drawn.centre[0, 1] > alone.centre[0, 1] - 2
+
+
+def test_the_sizes_of_the_other_caps_tell_where_little_rim_does_not():
+    rim = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), ANGLES[:8])
+    given = replace(evidence(rim), reach=np.log([60.0]))
+    alone = fitted(given, circle(300, 200, 50)).outlines
+    among = fitted(
+        replace(given, size=float(np.log(40)), size_precision=0.2**-2), circle(300, 200, 50)
+    ).outlines
+    assert abs(among.log_radius[0] - np.log(40)) < abs(alone.log_radius[0] - np.log(40)) - 0.01
 
 
 def test_a_few_wild_points_do_not_move_the_centre():
