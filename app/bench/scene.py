@@ -12,6 +12,7 @@ import multiprocessing
 import resource
 import sys
 import time
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -20,15 +21,17 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from fairyring.app.bench.rims import PERCENT, rim_figures, rim_profiles
 from fairyring.model.photo import read
 from fairyring.model.scene.bed import render_bed
 from fairyring.model.scene.presets import PRESETS
-from fairyring.model.scene.settings import Settings
 
 HIDDEN, LITTLE = 0.95, 0.6
 """A cap of less than this in sight is partly hidden; of less than that, little is in sight."""
 SLACK = 0.25
 """The allowed range is the real photos' least to greatest value, widened by this share of them."""
+BEDS = 24
+"""Rendered of every preset; fewer differ too much from one another to tell anything of the preset."""
 LEAST_SPEED, MOST_MEMORY = 2.0, 500.0
 
 Figures = dict[str, float]
@@ -54,25 +57,66 @@ REAL: dict[str, tuple[float, float]] = {
     "detail 2–4 px (grey levels)": (7.031, 7.722),
     "detail 4–8 px (grey levels)": (9.161, 9.498),
     "detail 8–16 px (grey levels)": (12.62, 12.63),
+    "rim step 10 % (grey levels)": (2.94, 3.34),
+    "rim step 25 % (grey levels)": (7.79, 8.54),
+    "rim step 50 % (grey levels)": (16.74, 18.16),
+    "rim step 75 % (grey levels)": (28.58, 31.92),
+    "rim step 90 % (grey levels)": (45.28, 45.56),
+    "rim dip 10 % (grey levels)": (-5.68, -5.37),
+    "rim dip 25 % (grey levels)": (-0.48, -0.29),
+    "rim dip 50 % (grey levels)": (5.3, 5.61),
+    "rim dip 75 % (grey levels)": (13.03, 13.64),
+    "rim dip 90 % (grey levels)": (24.7, 25.44),
+    "rim steepest 10 % (grey levels)": (4.74, 5.45),
+    "rim steepest 25 % (grey levels)": (7.28, 7.6),
+    "rim steepest 50 % (grey levels)": (11.38, 11.51),
+    "rim steepest 75 % (grey levels)": (18.93, 19.04),
+    "rim steepest 90 % (grey levels)": (31.11, 34.16),
+    "faint rims": (0.27, 0.28),
 }
-"""Least and greatest figure of the two photos, as ``measure`` makes them."""
+"""Least and greatest figure of the two photos, as ``measure`` and ``rim_figures`` make them."""
+RIMS = [name for name in REAL if "rim" in name]
 
 
 def scene_rows(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
-    """The table: each figure of rendered beds and of real photos, and whether it is in the allowed range."""
+    """The table: each figure of rendered beds and of real photos, and whether it is in the allowed range.
+
+    All figures of preset ``farm``, and those of its rims for ``mixed``.
+    """
     ranges = _measure_folder(real) if real else REAL
-    beds = 2 if quick else 12
-    rendered = [_figures_of_bed(PRESETS["farm"], index) for index in range(beds)]
+    beds = 2 if quick else BEDS
     rows = _cost_rows(2 if quick else 6)
-    for name, (least, greatest) in ranges.items():
-        value = float(np.mean([figures[name] for figures in rendered]))
-        low, high = least - SLACK * abs(least), greatest + SLACK * abs(greatest)
-        rows.append(
-            _row(
-                name, value, f"{least:.3g} – {greatest:.3g}", f"{low:.3g} – {high:.3g}", low <= value <= high
-            )
-        )
+    rows += [_compared(name, value, ranges[name]) for name, value in _figures_of("farm", beds).items()]
+    for name, value in _figures_of("mixed", beds).items():
+        if name in RIMS:
+            rows.append(_compared(f"mixed: {name}", value, ranges[name]))
     return rows
+
+
+def rim_rows(*, quick: bool, real: Path | None = None) -> list[dict[str, Any]]:
+    """A row a set of beds, real ones first: quantiles of the figures of its rims."""
+    ranges = _measure_folder(real) if real else REAL
+    sets = {"real": {name: sum(ranges[name]) / 2 for name in RIMS}}
+    for name in ("farm", "mixed", "default", "paper"):
+        sets[f"rendered {name}"] = _figures_of(name, 2 if quick else BEDS)
+    return [
+        {"set": name}
+        | {
+            kind: " ".join(f"{figures[f'rim {kind} {percent} % (grey levels)']:.0f}" for percent in PERCENT)
+            for kind in ("step", "dip", "steepest")
+        }
+        | {"faint rims": f"{figures['faint rims']:.2f}"}
+        for name, figures in sets.items()
+    ]
+
+
+def _compared(name: str, value: float, real: tuple[float, float]) -> dict[str, Any]:
+    least, greatest = real
+    # A dip may be of either sign, and of a figure about zero a quarter means nothing.
+    floor = 1.0 if "rim dip" in name else 0.0
+    low = least - max(SLACK * abs(least), floor)
+    high = greatest + max(SLACK * abs(greatest), floor)
+    return _row(name, value, f"{least:.3g} – {greatest:.3g}", f"{low:.3g} – {high:.3g}", low <= value <= high)
 
 
 def measure(image: NDArray[np.uint8], *, diameters: list[float], fractions: list[float]) -> Figures:
@@ -105,13 +149,20 @@ def _looks(image: NDArray[np.uint8]) -> Figures:
     return figures
 
 
-def _figures_of_bed(settings: Settings, index: int) -> Figures:
-    bed = render_bed(settings, seed=1, index=index)
-    return measure(
-        bed.image,
-        diameters=[cap.diameter for cap in bed.caps],
-        fractions=[cap.visible_fraction for cap in bed.caps],
-    )
+@cache
+def _figures_of(name: str, count: int) -> Figures:
+    """Of so many beds of a preset: the mean of each figure, but of all their rims together."""
+    beds = [render_bed(PRESETS[name], seed=1, index=index) for index in range(count)]
+    figures = [
+        measure(
+            bed.image,
+            diameters=[cap.diameter for cap in bed.caps],
+            fractions=[cap.visible_fraction for cap in bed.caps],
+        )
+        for bed in beds
+    ]
+    rims = np.concatenate([rim_profiles(bed.image, [cap.visible for cap in bed.caps]) for bed in beds])
+    return {key: float(np.mean([own[key] for own in figures])) for key in figures[0]} | rim_figures(rims)
 
 
 def _cost_rows(count: int) -> list[dict[str, Any]]:
@@ -150,13 +201,14 @@ def _measure_folder(folder: Path) -> dict[str, tuple[float, float]]:
     measured = []
     for image in document["images"]:
         own = [a for a in document["annotations"] if a["image_id"] == image["id"] and not a.get("ignore")]
-        measured.append(
-            measure(
-                read(folder / "images" / image["file_name"]),
-                diameters=[_diameter(annotation) for annotation in own],
-                fractions=[annotation["visible_fraction"] for annotation in own],
-            )
+        photo = read(folder / "images" / image["file_name"])
+        figures = measure(
+            photo,
+            diameters=[_diameter(annotation) for annotation in own],
+            fractions=[annotation["visible_fraction"] for annotation in own],
         )
+        rims = rim_profiles(photo, [annotation["segmentation"] for annotation in own])
+        measured.append(figures | rim_figures(rims))
     return {name: (min(m[name] for m in measured), max(m[name] for m in measured)) for name in measured[0]}
 
 

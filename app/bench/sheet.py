@@ -22,7 +22,7 @@ Picture = NDArray[np.uint8]
 
 
 def draw_sheet(out: Path, *, real: Path | None) -> None:
-    """Writes the photos of ``real``/images, if given, and under them twelve rendered beds as a PNG file.
+    """Writes the photos of ``real``/images, if given, and under them sixteen rendered beds as a PNG file.
 
     Raises FairyringError where the folder holds no photos or ``out`` cannot be written.
     """
@@ -48,7 +48,7 @@ def _photos(real: Path) -> list[Picture]:
 def _beds() -> list[Picture]:
     return [
         render_bed(PRESETS[name], seed=1, index=index).image
-        for name in ("farm", "default", "paper")
+        for name in ("farm", "mixed", "default", "paper")
         for index in range(EACH)
     ]
 

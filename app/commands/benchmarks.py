@@ -88,7 +88,7 @@ def scene(
         Path | None, typer.Option(help="Folder of real photos with checked.json, to compare with.")
     ] = None,
     sheet: Annotated[
-        Path | None, typer.Option(help="PNG file for twelve beds, and the real photos, on one sheet.")
+        Path | None, typer.Option(help="PNG file for sixteen beds, and the real photos, on one sheet.")
     ] = None,
     quick: Quick = False,
     as_json: AsJson = False,
@@ -97,12 +97,15 @@ def scene(
 
     Example: `fairyring bench scene --real photos --sheet sheet.png`
     """
-    from fairyring.app.bench.scene import scene_rows
+    from fairyring.app.bench.scene import rim_rows, scene_rows
     from fairyring.app.bench.sheet import draw_sheet
 
     if sheet is not None:
         draw_sheet(sheet, real=real)
     print_rows("scene", scene_rows(quick=quick, real=real), as_json=as_json)
+    if not as_json:
+        title = "rims of caps on caps: 10 25 50 75 90 % quantiles, grey levels"
+        print_rows(title, rim_rows(quick=quick, real=real), as_json=False)
 
 
 @commands.command()

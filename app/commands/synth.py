@@ -20,7 +20,9 @@ def synth(
     *,
     count: Annotated[int | None, typer.Option(help="How many beds: 24, of preset paper 480.", min=1)] = None,
     seed: Annotated[int, typer.Option(help="The same seed gives the same beds.", min=0)] = 1,
-    preset: Annotated[str, typer.Option(help="default, paper (the paper's data set) or farm.")] = "default",
+    preset: Annotated[
+        str, typer.Option(help="default, paper (the paper's data set), farm or mixed.")
+    ] = "default",
     light: Annotated[list[LightSource] | None, typer.Option(help="Only this light; repeat for more.")] = None,
     form: Annotated[
         list[str] | None, typer.Option(help="Only this form, a to h; repeat for more, `ac` for both in one.")

@@ -6,11 +6,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from fairyring.model.light_and_form import LightSource
 from fairyring.model.scene.caps import Cap, shape_caps
-from fairyring.model.scene.growth import Rectangle, Stand, grow
+from fairyring.model.scene.focus import blur_of
+from fairyring.model.scene.growth import Rectangle, Stand, grow, zoomed
+from fairyring.model.scene.interreflection import throw
 from fairyring.model.scene.layers import (
     Layer,
     Owners,
@@ -18,17 +21,20 @@ from fairyring.model.scene.layers import (
     look_at,
     own_pixels,
     stack_layers,
-    strips,
     window,
 )
-from fairyring.model.scene.lens import draw_shot, expose
-from fairyring.model.scene.light import Light, Shade, cast_shade, draw_light, shine
+from fairyring.model.scene.lens import Shot, draw_shot, expose
+from fairyring.model.scene.light import Light, draw_light
 from fairyring.model.scene.pixels import Image, lay_over
 from fairyring.model.scene.presets import with_form
-from fairyring.model.scene.settings import Settings
+from fairyring.model.scene.settings import Camera, Settings
+from fairyring.model.scene.shade import cast_shade
+from fairyring.model.scene.shine import shine
 from fairyring.model.scene.skin import bend_normals, dress_cap, dress_stalk
 from fairyring.model.scene.soil import Bare, Sowing, draw_sowing, lay_soil
-from fairyring.model.scene.stalks import shape_stalks
+from fairyring.model.scene.stalks import Stalk, shape_stalks
+from fairyring.model.scene.tissue import raise_tissue
+from fairyring.model.scene.translucency import creep
 from fairyring.model.scene.truth import BedCap, tell_truth
 from fairyring.model.scene.view import View, bounds_of_ground, hang_camera, see_ground
 
@@ -47,6 +53,14 @@ class Bed(NamedTuple):
     """Quality to write it at."""
 
 
+class _Body(NamedTuple):
+    """What was drawn for the flesh of one image, as in ``settings.Flesh`` and ``settings.Growth``."""
+
+    interreflection: float
+    translucency: float
+    fused: float
+
+
 class _Planted(NamedTuple):
     """The mushrooms of a bed in the view, and whose each pixel is."""
 
@@ -54,6 +68,8 @@ class _Planted(NamedTuple):
     caps: list[Cap]
     seen: list[Seen]
     owners: Owners
+    stalks: list[Stalk]
+    """Of the caps in the picture."""
 
 
 def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
@@ -61,8 +77,11 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     form, source = kind_of(settings, index)
     settings = with_form(settings, form)
     rng = np.random.default_rng([seed, index])
+    zoom = float(np.exp(rng.uniform(*np.log(settings.growth.zoom))))
+    settings = replace(settings, growth=zoomed(settings.growth, zoom))
     shot = draw_shot(settings.camera, rng)
     light = draw_light(source, rng)
+    body = _draw_body(settings, rng)
     sowing = draw_sowing(settings.soil, width=settings.width, rng=rng)
     view = hang_camera(
         width=settings.width,
@@ -73,12 +92,23 @@ def render_bed(settings: Settings, *, seed: int, index: int = 0) -> Bed:
     ground = see_ground(view)
     planted = _plant(settings, view, bounds_of_ground(ground), sowing, rng)
     scene = lay_soil(settings.soil, sowing, ground=ground, view=view, feet=planted.stand.foot, rng=rng)
+    tissue = raise_tissue(scene, planted.stalks, amount=body.fused, rng=rng)
     _clothe(planted, scene, settings, rng)
-    shade = cast_shade(scene.z, planted.owners != 0, light)
-    lit = _lit(scene, light=light, shade=shade)
-    image = expose(lit, scene.z, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
+    flesh = np.where(planted.owners != 0, np.float32(1), tissue)
+    lit = _lit(scene, flesh, body, light)
+    blur = _blur(scene.z, view, settings.camera, shot)
+    image = expose(lit, blur, camera=settings.camera, shot=shot, dimness=light.dimness, rng=rng)
     told = tell_truth(planted.caps, planted.seen, planted.owners)
     return Bed(image, told, planted.owners, source, form, shot.jpeg)
+
+
+def _draw_body(settings: Settings, rng: np.random.Generator) -> _Body:
+    flesh = settings.flesh
+    return _Body(
+        rng.uniform(*flesh.interreflection),
+        rng.uniform(*flesh.translucency),
+        rng.uniform(*settings.growth.fused),
+    )
 
 
 def kind_of(settings: Settings, index: int) -> tuple[str, LightSource]:
@@ -123,7 +153,8 @@ def _plant(
     kept = set(in_sight[np.argsort(-vigour)[:wanted]].tolist())
     left_over = [layer for layer in layers if layer.mushroom in kept]
     owners = own_pixels(left_over, width=view.width, height=view.height)
-    return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners)
+    standing = [stalks[cap] for cap in sorted(kept)]
+    return _Planted(stand, caps, look_at(left_over, owners, caps, stalks), owners, standing)
 
 
 def _in_sight(layer: Layer, owners: Owners) -> float:
@@ -153,17 +184,16 @@ def _clothe(planted: _Planted, bare: Bare, settings: Settings, rng: np.random.Ge
         lay_over(bare.z[here], surface.z, turned)
 
 
-def _lit(scene: Bare, *, light: Light, shade: Shade) -> Image:
-    """Linear light of the whole picture, (3, rows, columns)."""
-    picture = np.empty_like(scene.colour)
-    for box in strips(*scene.z.shape):
-        here = window(box)
-        picture[:, *here] = shine(
-            scene.colour[:, *here],
-            scene.normal[:, *here],
-            scene.z[here],
-            box=box,
-            light=light,
-            shade=shade,
-        )
-    return picture
+def _lit(scene: Bare, flesh: Image, body: _Body, light: Light) -> Image:
+    """Linear light that surfaces send to the camera, (3, rows, columns)."""
+    fallen = shine(scene.normal, scene.z, light=light, shade=cast_shade(scene.z, light))
+    throw(fallen, scene.colour, amount=body.interreflection)
+    creep(fallen.light, flesh, reach=body.translucency)
+    return fallen.light * scene.colour
+
+
+def _blur(z: Image, view: View, camera: Camera, shot: Shot) -> Image:
+    """By depth, the focus lying between the soil and the highest caps."""
+    low, high = np.percentile(z[::8, ::8], (2, 99)).tolist()
+    focus = low + shot.focus * (high - low)
+    return blur_of(z, focus=focus, distance=view.distance, defocus=camera.defocus)

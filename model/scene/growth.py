@@ -8,9 +8,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from fairyring.model.scene.settings import Growth
+from fairyring.model.scene.settings import MOST_CAPS, Growth
 
 Floats = NDArray[np.float64]
 Rectangle = tuple[float, float, float, float]
@@ -21,6 +22,12 @@ PULL = 0.03
 """Share of the way back to where its stalk would have it that a cap takes in a step."""
 TRIALS = 5
 """Places every cap may come up in, of which it takes the roomiest."""
+LATE = 0.5
+"""How high a cap has risen that came up late, of what it would have by its size."""
+UNDER = 0.8
+"""Where it comes up, in radii of the cap above it."""
+CLEARANCE = 0.045
+"""Share of their distance by which hard caps stay apart where they meet: a slit, narrow and deep."""
 STEEPEST = 1.6
 """Slope of the most tilted cap: 58 degrees."""
 FLATNESS = 0.75
@@ -50,17 +57,26 @@ class Pairs(NamedTuple):
 def grow(growth: Growth, *, count: int, ground: Rectangle, rng: np.random.Generator) -> Stand:
     """``count`` caps come up on a rectangle of soil and settle until side by side they hardly overlap."""
     radius = _draw_diameters(growth, count, rng) / 2
-    foot = _sprout(growth, radius, ground, rng)
+    late = rng.random(count) < growth.tucked
+    foot = _sprout(growth, radius, late, ground, rng)
     # In units of the radius: the large ones have grown over their neighbours.
     rise = radius * np.maximum(growth.height + growth.height_spread * rng.standard_normal(count), 0.3)
+    rise = np.where(late, LATE * rise, rise)
     lean = np.tan(np.radians(np.clip(growth.lean_deg * rng.standard_normal((count, 2)), -55, 55)))
     wanted = np.column_stack([foot + lean * rise[:, None], rise])
-    place = _settle(wanted, radius, give=0.2 * growth.squeeze)
+    place = _settle(wanted, radius, give=0.2 * growth.squeeze - CLEARANCE)
     # A cap faces half where it grew to and half where its neighbours left its stalk to point.
     slope = 0.5 * lean + 0.5 * (place[:, :2] - foot) / place[:, 2:]
     slope *= np.minimum(1, STEEPEST / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-9))
     axis = np.column_stack([slope, np.ones(count)])
     return Stand(radius, foot, place, axis / np.linalg.norm(axis, axis=1, keepdims=True))
+
+
+def zoomed(growth: Growth, zoom: float) -> Growth:
+    """The same bed seen ``zoom`` times as large: as much of the picture is covered by fewer caps."""
+    least, most = (min(max(round(count / zoom**2), 1), MOST_CAPS) for count in growth.caps)
+    d0, d10, d50, d90, d100 = (zoom * diameter for diameter in growth.diameters)
+    return replace(growth, caps=(least, most), diameters=(d0, d10, d50, d90, d100))
 
 
 def pairs_within(centre: Floats, reach: Floats) -> Pairs:
@@ -75,8 +91,17 @@ def _draw_diameters(growth: Growth, count: int, rng: np.random.Generator) -> Flo
     return np.exp(np.interp(rng.random(count), (0.0, 0.1, 0.5, 0.9, 1.0), logs))
 
 
-def _sprout(growth: Growth, radius: Floats, ground: Rectangle, rng: np.random.Generator) -> Floats:
-    """(n, 2) feet: each cap comes up beside an earlier one of its cluster, where there is most room."""
+def _sprout(
+    growth: Growth,
+    radius: Floats,
+    late: NDArray[np.bool_],
+    ground: Rectangle,
+    rng: np.random.Generator,
+) -> Floats:
+    """(n, 2) feet: each cap comes up beside an earlier one of its cluster, where there is most room.
+
+    Those that are ``late`` come up under the rim of one that has grown already.
+    """
     left, top, right, bottom = ground
     count = len(radius)
     foot = np.zeros((count, 2))
@@ -89,7 +114,8 @@ def _sprout(growth: Growth, radius: Floats, ground: Rectangle, rng: np.random.Ge
             else:
                 parent = rng.integers(founder, cap, TRIALS)
                 angle = rng.uniform(0, 2 * np.pi, TRIALS)
-                apart = growth.spread * (radius[cap] + radius[parent]) * rng.uniform(0.75, 1.25, TRIALS)
+                beside = growth.spread * (radius[cap] + radius[parent])
+                apart = np.where(late[cap], UNDER * radius[parent], beside) * rng.uniform(0.75, 1.25, TRIALS)
                 trials = foot[parent] + apart[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
             foot[cap] = _roomiest(_kept_inside(trials, ground), foot[:cap], radius[:cap])
         founder = end
@@ -114,7 +140,8 @@ def _roomiest(trials: Floats, foot: Floats, radius: Floats) -> Floats:
 def _settle(wanted: Floats, radius: Floats, *, give: float) -> Floats:
     """(n, 3): pushes caps that run into each other apart while their stalks pull them back.
 
-    ``give`` is the share of two caps' distance by which they may run into each other.
+    ``give`` is the share of two caps' distance by which they may run into each other;
+    below 0 they stay apart.
     """
     place = wanted.copy()
     stretch = np.array([1.0, 1.0, 1.0 / FLATNESS])

@@ -19,6 +19,8 @@ Owners = NDArray[np.int32]
 
 
 STRIP_ROWS = 24
+STALK_ORDER = 0.2
+"""How far up a stalk the height lies that it is stacked by."""
 
 
 class Layer(NamedTuple):
@@ -128,8 +130,8 @@ def _layer_of_stalk(index: int, stalk: Stalk, width: int, height: int) -> Layer 
     if box is None:
         return None
     mask = cover_of_stalk(stalk, box) >= 0.5
-    # Half way up, and never over its own cap.
-    order = min((stalk.foot[2] + stalk.head[2]) / 2, stalk.head[2] - 1e-3)
+    # Not far up, since a cap that stands in front of the foot hides the stalk, and never over its own cap.
+    order = min(stalk.foot[2] + STALK_ORDER * (stalk.head[2] - stalk.foot[2]), stalk.head[2] - 1e-3)
     return Layer(index, False, box, mask, int(mask.sum()), order)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.scene import textures
+from fairyring.model.scene.focus import focused
 from fairyring.model.scene.layers import strips, window
 from fairyring.model.scene.pixels import Image, clipped, planes
 from fairyring.model.scene.settings import Camera
@@ -54,7 +55,7 @@ def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
         sharpness=camera.sharpness * math.exp(0.2 * rng.standard_normal()),
         balance=balance,
         exposure=camera.exposure * math.exp(0.08 * rng.standard_normal()),
-        focus=rng.uniform(0.4, 0.9),
+        focus=rng.uniform(*camera.focus),
         black=rng.uniform(*camera.black),
         crisp=rng.uniform(*camera.crispness),
         glare=rng.uniform(0.3, 1.7),
@@ -63,11 +64,11 @@ def draw_shot(camera: Camera, rng: np.random.Generator) -> Shot:
 
 
 def expose(
-    light: Image, z: Image, *, camera: Camera, shot: Shot, dimness: float, rng: np.random.Generator
+    light: Image, blur: Image, *, camera: Camera, shot: Shot, dimness: float, rng: np.random.Generator
 ) -> NDArray[np.uint8]:
-    """Linear light (3, rows, columns) and view z (rows, columns) → an 8-bit BGR photo."""
-    rows, columns = z.shape
-    seen = _focused(light, z, camera=camera, shot=shot)
+    """Linear light (3, rows, columns) and its blur by depth (rows, columns) → an 8-bit BGR photo."""
+    rows, columns = blur.shape
+    seen = focused(light, blur, sharpness=shot.sharpness)
     seen += _stray(light) * planes(GLARE * np.float32(shot.glare))
     gain = _vignette(rows, columns, shot.vignette) * np.float32(shot.exposure)
     darkest = np.quantile(seen[:, ::8, ::8] * gain[::8, ::8], shot.black, axis=(1, 2))
@@ -92,33 +93,6 @@ def _sharpened(photo: NDArray[np.uint8], amount: float) -> NDArray[np.uint8]:
     """What every camera does to its photos, more or less of it."""
     smooth = cv2.GaussianBlur(photo, (0, 0), 1.2)
     return np.asarray(cv2.addWeighted(photo, 1 + amount, smooth, -amount, 0), np.uint8)
-
-
-def _focused(light: Image, z: Image, *, camera: Camera, shot: Shot) -> Image:
-    """Sharp where the focus lies, blurred in front of and behind it."""
-    if camera.defocus == 0:
-        return np.stack([cv2.GaussianBlur(plane, (0, 0), shot.sharpness) for plane in light])
-    low, high = np.percentile(z[::8, ::8], (2, 99)).tolist()
-    coarse = cv2.resize(z, None, fx=0.25, fy=0.25, interpolation=cv2.INTER_AREA)
-    off = np.abs(coarse - (low + shot.focus * (high - low)))
-    blur = cv2.GaussianBlur(off, (0, 0), 1.25) * np.float32(camera.defocus / 150.0)
-    most = max(float(blur.max()), 1e-3)
-    # Variances add: a mixture by this share has the variance the blur asks for.
-    share = cv2.resize((blur / most) ** 2, z.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    seen = np.empty_like(light)
-    for plane, own in zip(light, seen, strict=True):
-        sharp = cv2.GaussianBlur(plane, (0, 0), shot.sharpness)
-        soft = _blurred(plane, math.hypot(shot.sharpness, most))
-        own[:] = cv2.blendLinear(soft, sharp, share, 1 - share)
-    return seen
-
-
-def _blurred(plane: Image, reach: float) -> Image:
-    """By way of half the size where nothing that fine is left."""
-    if reach < 1.6:
-        return cv2.GaussianBlur(plane, (0, 0), reach)
-    half = cv2.resize(plane, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-    return cv2.resize(cv2.GaussianBlur(half, (0, 0), reach / 2), plane.shape[::-1])
 
 
 def _stray(light: Image) -> Image:

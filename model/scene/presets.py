@@ -7,7 +7,7 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from fairyring.model.light_and_form import LightSource
-from fairyring.model.scene.settings import Camera, Growth, SceneError, Settings, Skin, Soil
+from fairyring.model.scene.settings import Camera, Flesh, Growth, SceneError, Settings, Skin, Soil
 
 PRESETS: dict[str, Settings] = {
     "default": Settings(),
@@ -25,10 +25,12 @@ PRESETS: dict[str, Settings] = {
             lean_deg=11.0,
             squeeze=0.2,
             irregularity=0.45,
+            fused=(0.3, 0.8),
         ),
         skin=Skin(brown=(0.0, 0.03), specks=3.0, scales=0.0, spots=0.0, soil=0.004, damage=0.004),
+        flesh=Flesh(translucency=(0.5, 2.8)),
         soil=Soil(
-            brightness=(0.2, 0.6),
+            brightness=(0.0, 0.4),
             relief=7.0,
             mycelium=(0.15, 0.5),
             pinheads=(0.45, 0.8),
@@ -39,15 +41,39 @@ PRESETS: dict[str, Settings] = {
             pitch_deg=(0.0, 6.0),
             distance=1.3,
             vignette=(0.1, 0.3),
-            sharpness=0.7,
+            defocus=4.0,
+            sharpness=0.6,
             tint=0.03,
+            exposure=1.04,
             black=(0.115, 0.13),
-            crispness=(0.3, 0.8),
+            crispness=(0.6, 1.0),
             jpeg=(85, 95),
         ),
     ),
+    "mixed": Settings(
+        forms=("", "d", "", "e", "", "", "f", "", "g", "", "b", "", "c", "", "h", "", "a", ""),
+        lights=(*(LightSource.top,) * 9, LightSource.side, LightSource.dark),
+        growth=Growth(
+            caps=(190, 250),
+            diameters=(13, 26, 44, 70, 120),
+            zoom=(0.65, 1.25),
+            cluster=9.0,
+            spread=0.85,
+            height_spread=0.25,
+            lean_deg=11.0,
+            squeeze=0.2,
+            irregularity=0.45,
+            tucked=0.12,
+            fused=(0.0, 0.9),
+        ),
+        skin=Skin(brown=(0.0, 0.25), specks=3.0, scales=0.01, spots=0.01, soil=0.01, damage=0.01),
+        flesh=Flesh(translucency=(0.3, 2.4)),
+        soil=Soil(brightness=(0.0, 0.6), relief=9.0, mycelium=(0.05, 0.6), edge=0.3),
+        camera=Camera(defocus=4.0, sharpness=0.6, tint=0.05, black=(0.05, 0.13), crispness=(0.5, 1.0)),
+    ),
 }
-"""``default`` is a mixture, ``paper`` the data set of section 3, ``farm`` like real photos of a farm."""
+"""``default`` is a mixture, ``paper`` the data set of section 3, ``farm`` like real photos of a farm, and
+``mixed``, to learn from, like ``farm`` at many scales, half of it of some form, a little in other lights."""
 
 
 def preset(name: str) -> Settings:

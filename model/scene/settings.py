@@ -17,6 +17,10 @@ from fairyring.model.light_and_form import FORMS, LIGHTS, LightSource
 Share = Annotated[float, Meta(ge=0, le=1)]
 ShareRange = tuple[Share, Share]
 Positive = Annotated[float, Meta(gt=0)]
+MOST_CAPS = 600
+Count = Annotated[int, Meta(ge=1, le=MOST_CAPS)]
+Zoom = Annotated[float, Meta(ge=0.2, le=5)]
+Creep = tuple[Annotated[float, Meta(ge=0, le=10)], Annotated[float, Meta(ge=0, le=10)]]
 Form = Annotated[str, Meta(pattern="^[a-h]*$")]
 """Letters of the paper's Figure 3, applied together; none for a plain bed."""
 
@@ -28,13 +32,15 @@ class SceneError(FairyringError):
 class Growth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How caps come up."""
 
-    caps: tuple[Annotated[int, Meta(ge=1, le=600)], Annotated[int, Meta(ge=1, le=600)]] = (68, 104)
+    caps: tuple[Count, Count] = (68, 104)
     """How many with at least one pixel in sight."""
     diameters: tuple[Positive, Positive, Positive, Positive, Positive] = (13, 27, 56, 104, 200)
     """The 0, 10, 50, 90 and 100 % quantiles."""
+    zoom: tuple[Zoom, Zoom] = (1.0, 1.0)
+    """How much larger caps are than ``diameters`` says, and, by its square, how many fewer."""
     cluster: Annotated[float, Meta(ge=1)] = 5.0
     """Mean number of caps that come up together."""
-    spread: Annotated[float, Meta(ge=0.2, le=2)] = 0.96
+    spread: Annotated[float, Meta(ge=0.2, le=2)] = 0.88
     """Distance of a cap from the one it came up beside, in sums of their radii."""
     height: Annotated[float, Meta(ge=0.4, le=4)] = 1.0
     """Mean height of a cap's middle over the soil, in its own radii."""
@@ -46,6 +52,10 @@ class Growth(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How far caps that meet give way in shape rather than in place."""
     irregularity: Share = 0.35
     """How far outlines wander from round without any neighbour's doing."""
+    tucked: Share = 0.0
+    """Share of caps that come up late, under an earlier one, and look out from behind it."""
+    fused: ShareRange = (0.0, 0.6)
+    """How far the flesh that feet are fused in fills the gaps between them."""
 
 
 class Skin(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -59,6 +69,15 @@ class Skin(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     spots: Share = 0.03
     soil: Share = 0.03
     damage: Share = 0.03
+
+
+class Flesh(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What caps and stalks do with light."""
+
+    interreflection: ShareRange = (0.85, 1.0)
+    """Share of the light they throw on each other that arrives; 0: none, as in black velvet."""
+    translucency: Creep = (0.3, 2.5)
+    """How far light creeps in them before it comes out again: standard deviation, px."""
 
 
 class Soil(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -85,8 +104,10 @@ class Camera(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Tilt from straight down towards the top of the picture."""
     distance: Annotated[float, Meta(ge=0.9, le=20)] = 1.35
     """From the soil in the middle of the picture, in image widths."""
-    defocus: Annotated[float, Meta(ge=0, le=10)] = 1.6
-    """Blur of what lies 150 px out of focus: standard deviation, px."""
+    defocus: Annotated[float, Meta(ge=0, le=10)] = 3.0
+    """Blur of what lies 150 px below the focus: standard deviation, px."""
+    focus: ShareRange = (0.6, 1.0)
+    """Where the focus lies, from the soil (0) to the highest caps (1)."""
     sharpness: Annotated[float, Meta(ge=0.3, le=3)] = 0.75
     """Blur of what is in focus: standard deviation, px, give or take a fifth."""
     vignette: ShareRange = (0.05, 0.35)
@@ -114,6 +135,7 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Changes each time the forms have gone round."""
     growth: Growth = field(default_factory=Growth)
     skin: Skin = field(default_factory=Skin)
+    flesh: Flesh = field(default_factory=Flesh)
     soil: Soil = field(default_factory=Soil)
     camera: Camera = field(default_factory=Camera)
 
@@ -122,11 +144,16 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
         ranges = {
             "growth.caps": self.growth.caps,
             "growth.diameters": self.growth.diameters,
+            "growth.zoom": self.growth.zoom,
+            "growth.fused": self.growth.fused,
             "skin.brown": self.skin.brown,
+            "flesh.interreflection": self.flesh.interreflection,
+            "flesh.translucency": self.flesh.translucency,
             "soil.brightness": self.soil.brightness,
             "soil.mycelium": self.soil.mycelium,
             "soil.pinheads": self.soil.pinheads,
             "camera.pitch_deg": self.camera.pitch_deg,
+            "camera.focus": self.camera.focus,
             "camera.vignette": self.camera.vignette,
             "camera.black": self.camera.black,
             "camera.crispness": self.camera.crispness,

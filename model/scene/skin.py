@@ -24,6 +24,8 @@ TAN = np.array([0.16, 0.30, 0.46], np.float32)
 BLOTCH = np.array([0.34, 0.53, 0.70], np.float32)
 """What a brown spot keeps of the skin under it."""
 STALK = np.array([0.95, 0.985, 1.0], np.float32)
+TONES = 0.05
+"""Standard deviation of how bright caps are."""
 DIRT = np.array([0.012, 0.018, 0.026], np.float32)
 BRUISE = np.array([0.12, 0.20, 0.30], np.float32)
 
@@ -43,7 +45,7 @@ def dress_cap(cap: Cap, surface: Surface, skin: Skin, *, brown: float, rng: np.r
     seed = rng.integers(2**32)
     blotch, pores, dark, value = textures.look_up_each(textures.skin(), x, y)
 
-    grey = (1 + 0.07 * tone) + 0.025 * math.exp(0.6 * dry) * blotch
+    grey = (1 + TONES * tone) + 0.025 * math.exp(0.6 * dry) * blotch
     grey += (0.016 + 0.05 * brown) * pores
     top = clipped(surface.rise * np.float32(1 / cap.dome), 0, 1)
     brownness = clipped(brown * (0.7 + 0.3 * top + 0.10 * blotch + 0.05 * pores), 0, 1)

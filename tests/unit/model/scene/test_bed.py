@@ -97,6 +97,7 @@ def test_the_picture_shows_what_the_truth_says() -> None:
     plain = {
         "forms": [""],
         "lights": ["top"],
+        "growth": {"fused": [0, 0]},
         "skin": {"brown": [0, 0], "specks": 0},
         "soil": {"brightness": [0, 0], "mycelium": [0, 0], "pinheads": [0, 0], "litter": 0, "edge": 0},
         "camera": {"defocus": 0, "sharpness": 0.4, "black": [0, 0], "crispness": [0, 0]},

@@ -35,10 +35,17 @@ def contrast_on_caps(beds: list[Bed]) -> float:
     return float(np.mean([bed.image[bed.owners > 0].std() for bed in beds]))
 
 
+def step_across_rims(bed: Bed) -> float:
+    """Median change of brightness between neighbouring pixels of two caps."""
+    left, right = bed.owners[:, :-1], bed.owners[:, 1:]
+    grey = bed.image.mean(axis=2)
+    return float(np.median(np.abs(np.diff(grey, axis=1))[(left != right) & (left > 0) & (right > 0)]))
+
+
 def test_caps_closer_together_hide_more_of_each_other() -> None:
     near = rendered({"growth": {"spread": 0.6, "cluster": 15}}, count=4)
     far = rendered({"growth": {"spread": 1.6, "cluster": 1}}, count=4)
-    assert hidden(near) > hidden(far) + 0.2
+    assert hidden(near) > hidden(far) + 0.15
 
 
 def test_diameters_follow_their_quantiles() -> None:
@@ -99,9 +106,9 @@ def test_noise_and_blur_of_the_camera_can_be_set() -> None:
     def fine(beds: list[Bed]) -> float:
         return float(np.mean([np.abs(np.diff(bed.image[..., 1].astype(int), axis=1)).mean() for bed in beds]))
 
-    plain = rendered({})
-    assert fine(rendered({"camera": {"noise": 6}})) > 1.2 * fine(plain)
-    assert fine(rendered({"camera": {"sharpness": 2.5}})) < 0.7 * fine(plain)
+    assert fine(rendered({"camera": {"noise": 6}})) > 1.2 * fine(rendered({}))
+    sharp, blurred = ({"camera": {"noise": 0, "defocus": 0, "sharpness": blur}} for blur in (0.7, 2.5))
+    assert fine(rendered(blurred)) < 0.7 * fine(rendered(sharp))
 
 
 def test_an_oblique_camera_squeezes_caps_upright() -> None:
@@ -110,3 +117,49 @@ def test_an_oblique_camera_squeezes_caps_upright() -> None:
         return float(np.mean([high / wide for wide, high in spans]))
 
     assert flatness(rendered({"camera": {"pitch_deg": [40, 40]}})) < 0.93 * flatness(rendered({}))
+
+
+def test_late_caps_look_out_from_behind_others() -> None:
+    assert hidden(rendered({"growth": {"tucked": 1}}, count=4)) > hidden(rendered({}, count=4)) + 0.05
+
+
+def test_fused_feet_brighten_the_gaps() -> None:
+    growth = {"spread": 0.6, "cluster": 15}
+    bare = rendered({"growth": growth | {"fused": [0, 0]}}, count=4)
+    fused = rendered({"growth": growth | {"fused": [1, 1]}}, count=4)
+    assert soil_brightness(fused) > soil_brightness(bare) + 1
+
+
+@pytest.mark.parametrize(("setting", "little", "much"), [("interreflection", 0, 1), ("translucency", 0, 4)])
+def test_light_in_and_between_caps_softens_the_rims_they_share(
+    setting: str, little: float, much: float
+) -> None:
+    def steepest(value: float) -> float:
+        flesh = {"interreflection": [1, 1], "translucency": [0, 0]} | {setting: [value, value]}
+        changes = {"growth": {"spread": 0.6, "cluster": 15}, "flesh": flesh}
+        return float(np.median([step_across_rims(bed) for bed in rendered(changes, count=3)]))
+
+    assert steepest(much) < 0.85 * steepest(little)
+
+
+def test_what_is_out_of_focus_is_blurred() -> None:
+    def fine(defocus: float) -> float:
+        beds = rendered({"camera": {"defocus": defocus, "focus": [1, 1], "noise": 0}})
+        return float(np.mean([np.abs(np.diff(bed.image[..., 1].astype(int), axis=1)).mean() for bed in beds]))
+
+    assert fine(10) < 0.8 * fine(0)
+    sharp, blurred = (rendered({"camera": {"defocus": defocus}}) for defocus in (0, 10))
+    # A blurred rim is still where it is.
+    assert all((one.owners == other.owners).all() for one, other in zip(sharp, blurred, strict=True))
+
+
+def test_a_zoom_makes_fewer_and_larger_caps() -> None:
+    def count_and_size(zoom: float) -> tuple[float, float]:
+        beds = rendered({"growth": {"zoom": [zoom, zoom]}}, count=4)
+        diameters = [cap.diameter for bed in beds for cap in bed.caps]
+        return len(diameters) / len(beds), float(np.median(diameters))
+
+    (count, size), (fewer, larger) = count_and_size(1.0), count_and_size(2.0)
+    assert fewer == pytest.approx(count / 4, rel=0.25)
+    # Of two dozen caps the median is a rough one.
+    assert larger > 1.3 * size

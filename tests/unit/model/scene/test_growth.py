@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fairyring.model.scene.growth import FLATNESS, grow, pairs_within
+from fairyring.model.scene.growth import FLATNESS, grow, pairs_within, zoomed
 from fairyring.model.scene.settings import Growth
 
 GROUND = (0.0, 0.0, 900.0, 600.0)
@@ -52,3 +52,20 @@ def test_diameters_stay_within_their_limits() -> None:
     assert 2 * stand.radius.min() >= least
     assert 2 * stand.radius.max() <= most
     assert np.median(2 * stand.radius) == pytest.approx(Growth().diameters[2], rel=0.15)
+
+
+def test_late_caps_lie_lower_and_nearer_to_others() -> None:
+    def stand(tucked: float) -> tuple[float, float]:
+        grown = grow(Growth(tucked=tucked), count=80, ground=GROUND, rng=np.random.default_rng(5))
+        apart = np.linalg.norm(grown.foot[:, None] - grown.foot[None], axis=2) + 1e6 * np.eye(80)
+        return float(np.mean(grown.place[:, 2] / grown.radius)), float(np.median(apart.min(axis=1)))
+
+    (height, apart), (late_height, late_apart) = stand(0.0), stand(1.0)
+    assert late_height < 0.85 * height
+    assert late_apart < 0.85 * apart
+
+
+def test_seen_at_twice_the_size_a_quarter_of_the_caps_covers_as_much() -> None:
+    growth = zoomed(Growth(caps=(80, 120), diameters=(10, 20, 40, 80, 160)), 2.0)
+    assert growth.caps == (20, 30)
+    assert growth.diameters == (20, 40, 80, 160, 320)

@@ -18,6 +18,11 @@ from fairyring.model.scene.settings import FORMS, SceneError, Settings, changed
         ({"growth": {"caps": [90, 20]}}, "growth.caps"),
         ({"growth": {"diameters": [10, 20, 30]}}, "diameters"),
         ({"growth": {"diameters": [30, 20, 40, 50, 60]}}, "diameters"),
+        ({"growth": {"zoom": [2, 1]}}, "growth.zoom"),
+        ({"growth": {"fused": [0, 2]}}, "fused"),
+        ({"flesh": {"translucency": [3, 1]}}, "flesh.translucency"),
+        ({"flesh": {"interreflection": [0, 2]}}, "interreflection"),
+        ({"camera": {"focus": [0.9, 0.1]}}, "camera.focus"),
         ({"skin": {"brown": [0, 2]}}, "brown"),
         ({"camera": {"pitch_deg": [0, 80]}}, "pitch_deg"),
         ({"lights": ["sun"]}, "lights"),
@@ -34,7 +39,7 @@ def test_a_setting_out_of_its_range_is_named(changes: dict[str, Any], word: str)
 
 
 def test_an_unknown_preset_is_named_beside_those_there_are() -> None:
-    with pytest.raises(SceneError, match=r"'plot'.*default, paper, farm"):
+    with pytest.raises(SceneError, match=r"'plot'.*default, paper, farm, mixed"):
         preset("plot")
 
 
