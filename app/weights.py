@@ -6,12 +6,13 @@ from pathlib import Path
 
 from fairyring.model.errors import FairyringError
 from fairyring.model.predict.shipped import SHIPPED
+from fairyring.storage.folder import WEIGHTS
 from fairyring.storage.project import Project
 
 
 def weights_of(project: Project) -> Path | None:
     """Path of the newest weights in the project's ``weights``, else of the shipped ones; None without any."""
-    own = sorted((file.stat().st_mtime, file) for file in (project.folder / "weights").glob("*.safetensors"))
+    own = sorted((file.stat().st_mtime, file) for file in (project.folder / WEIGHTS).glob("*.safetensors"))
     if own:
         return own[-1][1]
     return SHIPPED if SHIPPED.exists() else None
@@ -23,6 +24,6 @@ def require_weights(project: Project) -> Path:
     if found is None:
         raise FairyringError(
             f"There are no weights to predict with; put a .safetensors file that fairyring train made "
-            f"into {project.folder / 'weights'}, or name it with --weights."
+            f"into {project.folder / WEIGHTS}, or name it with --weights."
         )
     return found

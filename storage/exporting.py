@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
-from uuid import uuid4
 
 import cv2
 import msgspec
@@ -32,6 +30,7 @@ from fairyring.storage.originals import PhotoChangedError
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
 JPEG_QUALITY = 97
@@ -71,7 +70,7 @@ def export_coco(
     Raises:
         StoreError: ``out`` holds something or cannot be written, a photo is gone, or no image is left.
     """
-    with project.read() as connection, _made_at_once(out) as folder:
+    with project.read() as connection, made_whole(out) as folder:
         images, left_out = _copy_photos(project, _images(connection, only), folder / "images", progress)
         categories = {row.name: row.extra for row in connection.execute(_CATEGORIES)}
         licenses: list[dict[str, Any]] = []
@@ -147,22 +146,6 @@ def _info(connection: Connection, project: Project, only: Only) -> dict[str, Any
     info: dict[str, Any] = {"description": project.name, "exported": only}
     run = latest_run(connection) if only in ("predicted", "all") else None
     return info | ({"run": msgspec.to_builtins(run)} if run else {})
-
-
-@contextmanager
-def _made_at_once(out: Path) -> Iterator[Path]:
-    """A folder beside ``out`` that takes its name when all is written, and vanishes if anything fails."""
-    if out.exists() and (not out.is_dir() or any(out.iterdir())):
-        raise StoreError(f"{out} is not empty; name a new or an empty folder for the export.")
-    folder = out.with_name(f".{out.name}.{uuid4().hex}")
-    try:
-        folder.mkdir(parents=True)
-        yield folder
-        folder.replace(out)
-    except OSError as error:
-        raise StoreError(f"{out} cannot be written: {error.strerror}.") from error
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _copy_photos(

@@ -7,6 +7,9 @@ from pathlib import Path
 SETTINGS = "fairyring.toml"
 DATABASE = "project.db"
 IMAGES = "images"
+WEIGHTS = "weights"
+CACHE = "cache"
+NOTE_OF_BACKUP = "backup.json"
 
 
 def is_project(folder: Path) -> bool:

@@ -62,6 +62,10 @@ def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Out
         StoreError: the database cannot be written, or ``user`` is no name.
     """
     check_name(user, "name of a user")
+    try:
+        project.require_writable()
+    except StoreError as error:
+        return [Refused(edit=derived.edit.id, reason=str(error)) for derived in edits]
     checked = _check_caps(project, [derived.edit for derived in edits])
     return project.write(lambda connection: _commit_all(connection, edits, checked, user=user))
 

@@ -7,23 +7,26 @@ after a write, never between.
 from __future__ import annotations
 
 import json
+import os
 import threading
 import tomllib
 from collections.abc import Callable, Generator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TypeVar
 from uuid import uuid4
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import URL, Connection, insert, make_url, select
 
 from fairyring.storage.db import schema
 from fairyring.storage.db.clock import now
+from fairyring.storage.db.copying import copy_read_only
 from fairyring.storage.db.engine import connect_engine, explained, warn_of_network_drive
-from fairyring.storage.db.upgrade import upgrade
+from fairyring.storage.db.upgrade import check_is_project, make_tables, upgrade
 from fairyring.storage.errors import StoreError
-from fairyring.storage.folder import DATABASE, IMAGES, SETTINGS, is_project
+from fairyring.storage.folder import CACHE, DATABASE, IMAGES, NOTE_OF_BACKUP, SETTINGS, is_project
 from fairyring.storage.originals import Originals
 
 T = TypeVar("T")
@@ -32,9 +35,10 @@ T = TypeVar("T")
 class Project:
     """An open project. Safe to use from any thread; ``close`` it, or use it in a ``with``."""
 
-    def __init__(self, folder: Path, url: str) -> None:
+    def __init__(self, folder: Path, url: str | URL, *, copy: TemporaryDirectory[str] | None = None) -> None:
         self.folder = folder
         self.url = url
+        self._copy = copy
         self.originals = Originals(folder)
         self._readers = connect_engine(url, write=False)
         self._writer = connect_engine(url, write=True)
@@ -43,6 +47,22 @@ class Project:
             row = connection.execute(select(schema.project)).one()
         self.id: str = row.id
         self.name: str = row.name
+
+    @property
+    def read_only(self) -> bool:
+        """Whether nothing may be stored; then everything is read from a copy of how it was when opened."""
+        return self._copy is not None
+
+    @property
+    def cache(self) -> Path:
+        """Folder of what can be made anew; of a read-only project one that goes when it is closed."""
+        return (Path(self._copy.name) if self._copy else self.folder) / CACHE
+
+    @property
+    def sqlite_file(self) -> Path | None:
+        """Where the database lies; None where a server keeps it."""
+        url = make_url(self.url)
+        return Path(url.database) if url.get_backend_name() == "sqlite" and url.database else None
 
     @property
     def images(self) -> Path:
@@ -65,11 +85,17 @@ class Project:
         Whatever ``work`` raises rolls everything back and is raised here.
 
         Raises:
-            StoreError: a full or failing disk, or a database locked by another program.
+            StoreError: a full or failing disk, a database locked by another program, or a read-only project.
         """
+        self.require_writable()
         if threading.current_thread().name.startswith("store"):
             raise RuntimeError("write() within write(): hand the connection on instead")
         return self._thread.submit(self._transact, work).result()
+
+    def require_writable(self) -> None:
+        """Raises StoreError where nothing may be stored."""
+        if self.read_only:
+            raise StoreError(f"{self.folder} is read-only; make its folder and files writable to change it.")
 
     def _transact(self, work: Callable[[Connection], T]) -> T:
         with explained(str(self.folder)), self._writer.begin() as connection:
@@ -77,7 +103,7 @@ class Project:
 
     def written_by_others(self) -> int | None:
         """A number that changes when another process writes; None where the database cannot tell."""
-        if self._writer.dialect.name != "sqlite":
+        if self.read_only or self._writer.dialect.name != "sqlite":
             return None
         return self._thread.submit(self._data_version).result()
 
@@ -95,6 +121,8 @@ class Project:
         self._thread.shutdown(wait=True)
         self._writer.dispose()
         self._readers.dispose()
+        if self._copy is not None:
+            self._copy.cleanup()
 
     def __enter__(self) -> Project:
         return self
@@ -111,14 +139,16 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
         url: an SQLAlchemy URL of an empty database; by default an SQLite file in the folder.
 
     Raises:
-        StoreError: it is a project already, or the folder or database cannot be written.
+        StoreError: it is a project already, holds another database, or cannot be written.
     """
     if is_project(folder):
         raise StoreError(f"{folder} is a Fairyring project already; open it, or choose another folder.")
     try:
+        if url is None and (folder / DATABASE).exists():
+            check_is_project(folder / DATABASE)
         (folder / IMAGES).mkdir(parents=True, exist_ok=True)
-        database = url or _sqlite_url(folder)
-        upgrade(database, source=folder)
+        database = url or _own_database(folder)
+        make_tables(database, source=folder)
         _enter_names(database, name=folder.resolve().name, shared=url is not None)
         (folder / SETTINGS).write_text(_settings(folder.resolve().name, url), encoding="utf-8")
     except OSError as error:
@@ -129,49 +159,49 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
 def open_project(folder: Path) -> Project:
     """Opens a project, first bringing an older database up to date (a backup is made beside it).
 
+    Where its folder or database may not be written to, it is opened read-only.
+
     Raises:
         StoreError: not a project; made by a newer Fairyring; damaged; not readable.
     """
+    if (folder / NOTE_OF_BACKUP).exists():
+        raise StoreError(
+            f"{folder} is a backup; make a project of it with: fairyring restore {folder} PROJECT"
+        )
     settings = _read_settings(folder)
     url = settings.get("store", {}).get("url")
-    if url is None:
-        if not (folder / DATABASE).is_file():
-            raise StoreError(f"{folder} has no {DATABASE}; restore it from a backup, or make a new project.")
-        warn_of_network_drive(folder)
-    database = url or _sqlite_url(folder)
-    upgrade(database, source=folder, existing=None if url else folder / DATABASE)
-    return Project(folder, database)
+    if url is not None:
+        upgrade(url, source=folder)
+        return Project(folder, url)
+    file = folder / DATABASE
+    if not file.is_file():
+        raise StoreError(f"{folder} has no {DATABASE}; restore it from a backup, or make a new project.")
+    if not all(os.access(path, os.W_OK, effective_ids=True) for path in (folder, file)):
+        return _open_read_only(folder)
+    warn_of_network_drive(folder)
+    upgrade(_own_database(folder), source=folder, file=file)
+    return Project(folder, _own_database(folder))
 
 
-def back_up(project: Project, out: Path) -> None:
-    """Writes the database as it is now, whole and compact, into the new file ``out``.
-
-    Raises:
-        StoreError: ``out`` exists or cannot be written, or the project is not kept in SQLite.
-    """
-    if out.exists():
-        raise StoreError(f"{out} exists already; name a new file for the backup.")
-    if not project.url.startswith("sqlite"):
-        raise StoreError(
-            f"{project.folder} is kept in a database server; back it up with the server's own tools."
-        )
-    if not out.parent.is_dir():
-        raise StoreError(f"{out.parent} is not a folder; make it first, or name another file for the backup.")
-    engine = connect_engine(project.url, write=False)
+def _open_read_only(folder: Path) -> Project:
+    """Reads from a copy: SQLite would write beside a database even to read it, or take it for unchanging."""
+    copy = TemporaryDirectory(prefix="fairyring-")
     try:
-        with explained(str(out)):
-            raw = engine.raw_connection()
-            raw.cursor().execute("VACUUM INTO ?", (str(out),))
-            raw.close()
-    finally:
-        engine.dispose()
+        copy_read_only(folder / DATABASE, Path(copy.name) / DATABASE)
+        url = _own_database(Path(copy.name))
+        upgrade(url, source=folder)
+        return Project(folder, url, copy=copy)
+    except BaseException:
+        copy.cleanup()
+        raise
 
 
-def _sqlite_url(folder: Path) -> str:
-    return f"sqlite:///{(folder / DATABASE).resolve()}"
+def _own_database(folder: Path) -> URL:
+    # As text, a question mark in the name of a folder would end it.
+    return URL.create("sqlite", database=str((folder / DATABASE).resolve()))
 
 
-def _enter_names(url: str, *, name: str, shared: bool) -> None:
+def _enter_names(url: str | URL, *, name: str, shared: bool) -> None:
     engine = connect_engine(url, write=True)
     try:
         with explained(name), engine.begin() as connection:

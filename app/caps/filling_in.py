@@ -28,8 +28,10 @@ def fill_in(project: Project, image_ids: Sequence[int] | None = None, *, progres
     """Works out every whole outline and centre that is missing; returns how many were stored.
 
     ``image_ids`` None means the whole project. Each image is stored by itself, so that a later call goes on
-    where this one was stopped.
+    where this one was stopped. In a read-only project they stay missing.
     """
+    if project.read_only:
+        return 0
     if image_ids is None:
         with project.read() as connection:
             image_ids = derived.images_with_underived(connection)

@@ -1,4 +1,4 @@
-"""Commands on a project folder: init, import, export, backup."""
+"""Commands on a project folder: init, import, export, backup, restore."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.light_and_form import FORMS, LightSource
 from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only
+from fairyring.storage.folder import IMAGES, WEIGHTS
 
 if TYPE_CHECKING:
+    from fairyring.storage.backup import Backup
     from fairyring.storage.importing.paths import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
@@ -128,14 +130,57 @@ def export(
 
 def backup(
     folder: ProjectFolder,
-    out: Annotated[Path, typer.Argument(metavar="OUT.db", help="A new file.")],
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="A new folder.")],
+    *,
+    as_json: AsJson = False,
 ) -> None:
-    """Copy the database while people go on working.
+    """Copy labels, photos, settings and weights while people go on working; linked photos are not copied.
 
-    Example: `fairyring backup beds beds-monday.db`
+    Example: `fairyring backup beds beds-monday`
     """
-    from fairyring.storage.project import back_up, open_project
+    from fairyring.storage.backup import back_up
+    from fairyring.storage.project import open_project
 
-    with open_project(folder) as project:
-        back_up(project, out)
-    typer.echo(f"Wrote {out}", err=True)
+    with open_project(folder) as project, shown_on_stderr() as progress:
+        made = back_up(project, out, progress=progress)
+    for remark in made.remarks:
+        typer.echo(remark, err=True)
+    _print_backup(made, f"{out} holds", as_json=as_json)
+
+
+def restore(
+    backup: Annotated[Path, typer.Argument(metavar="BACKUP", help="A folder that fairyring backup made.")],
+    folder: Annotated[Path, typer.Argument(metavar="PROJECT", help="A new folder.")],
+    *,
+    as_json: AsJson = False,
+) -> None:
+    """Make a project of a backup, which is checked first.
+
+    Example: `fairyring restore beds-monday beds`
+    """
+    from fairyring.storage.backup import restore as restore_
+
+    with shown_on_stderr() as progress:
+        made = restore_(backup, folder, progress=progress)
+    _print_backup(made, f"{folder} holds", as_json=as_json)
+
+
+def _print_backup(backup: Backup, holds: str, *, as_json: bool) -> None:
+    figures = {
+        "images": backup.images,
+        "photos": backup.files_in(IMAGES),
+        "linked": len(backup.linked),
+        "annotations": backup.rows["annotation"],
+        "predictions": backup.rows["prediction"],
+        "weights": backup.files_in(WEIGHTS),
+        "remarks": len(backup.remarks),
+    }
+    if as_json:
+        typer.echo(json.dumps(figures))
+        return
+    linked = f" ({len(backup.linked)} are linked and stay where they are)" if backup.linked else ""
+    typer.echo(
+        f"{holds} {figures['images']} images, {figures['photos']} photos of them{linked}, "
+        f"{figures['annotations']} annotations, {figures['predictions']} predictions, the settings, "
+        f"and {figures['weights']} files of weights."
+    )

@@ -36,7 +36,7 @@ QUALITY_FULL, QUALITY_SCALED = 95, 88
 
 def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awaitable[Response]]:
     """The endpoint of `PHOTOS`, which takes a width as ``?w=``; ``cache_limit`` in bytes."""
-    cache = project.folder / "cache" / "photos"
+    cache = project.cache / "photos"
     decoding = anyio.CapacityLimiter(2)
 
     async def photos(request: Request) -> Response:

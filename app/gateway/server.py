@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import logging
+import signal
 import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
@@ -35,7 +36,9 @@ from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
 from fairyring.model.errors import FairyringError
+from fairyring.storage.importing.staging import clear_killed_imports
 from fairyring.storage.project import open_project
+from fairyring.storage.serving import served
 
 log = logging.getLogger(__name__)
 
@@ -57,15 +60,22 @@ def serve(
     """Serves a project until SIGINT or SIGTERM, then closes everything.
 
     ``ready`` is called with the address once the server answers, and again whenever it has led a browser in
-    and another one does from then on. Raises ServerError for an address that may
-    not be listened on or a port that is taken, and whatever open_project raises; before anything is started.
+    and another one does from then on. Raises ServerError for an address that may not be listened on or a port
+    that is taken, and StoreError where the project cannot be opened or is served already; before anything is
+    started.
     """
     settings = settings or load_settings(project_folder)
     load_viser()
-    with contextlib.closing(_listen(settings)) as listening, open_project(project_folder) as project:
-        workspace = Workspace(project, settings)
+    with contextlib.ExitStack() as opened:
+        listening = opened.enter_context(contextlib.closing(_listen(settings)))
         address = f"http://{_shown_host(settings.host)}:{listening.getsockname()[1]}"
-        door = door_of(project.folder / "cache", project_id=project.id) if settings.token else None
+        project = opened.enter_context(open_project(project_folder))
+        opened.enter_context(served(project.folder, address=address))
+        clear_killed_imports(project)
+        if project.read_only:
+            log.warning("%s is read-only: it is shown as it is now, and changes are refused.", project.folder)
+        workspace = Workspace(project, settings)
+        door = door_of(project.cache, project_id=project.id) if settings.token else None
 
         def announce() -> None:
             ready(f"{address}/?token={door.token}" if door else address)
@@ -73,6 +83,8 @@ def serve(
         if door is not None:
             door.used = announce
         server = _Server(configure(make_app(workspace, door=door), settings), announce)
+        # Told to end, uvicorn shuts down and passes the signal on; by itself SIGTERM would end all here.
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
         server.run(sockets=[listening])
 
 

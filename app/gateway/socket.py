@@ -122,6 +122,8 @@ async def _encode(message: FromServer) -> str:
 async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:
     session.send(Welcome(user=session.user, project=workspace.project.id))
     session.send(session.layers)
+    if workspace.project.read_only:
+        session.notify("This project is read-only; changes to it are refused.", "warning")
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
     refits = Refits(session)

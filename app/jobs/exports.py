@@ -23,7 +23,7 @@ KEPT = 3
 
 def exports_folder(project: Project) -> Path:
     """The folder of the zip files."""
-    return project.folder / "cache" / "exports"
+    return project.cache / "exports"
 
 
 def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]:

@@ -17,6 +17,7 @@ from fairyring.app.panels.markup import Markup, element
 from fairyring.app.weights import require_weights, weights_of
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.progress import Progress
+from fairyring.storage.folder import WEIGHTS
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
 
@@ -60,7 +61,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 def weights_line(found: Path | None, project: Project) -> Markup:
     """Says which weights the buttons take."""
     if found is None:
-        folder = element("code", str(project.folder / "weights"))
+        folder = element("code", str(project.folder / WEIGHTS))
         words = ("No weights to predict with: put a file that fairyring train made into ", folder, ".")
     elif found == SHIPPED:
         words = ("Weights: ", element("strong", found.name), ", which came with Fairyring.")

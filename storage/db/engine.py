@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import logging
+import sqlite3
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
-from sqlalchemy import Engine, create_engine, event, exc
+from sqlalchemy import URL, Engine, create_engine, event, exc
 from sqlalchemy.engine import make_url
+from sqlalchemy.pool import NullPool
 
 from fairyring.storage.errors import StoreError
 
@@ -32,7 +35,7 @@ NETWORK_FILE_SYSTEMS = {
 }
 
 
-def connect_engine(url: str, *, write: bool) -> Engine:
+def connect_engine(url: str | URL, *, write: bool) -> Engine:
     """An engine for readers (a pool, one snapshot a transaction) or for the one writer."""
     if make_url(url).get_backend_name() != "sqlite":
         return create_engine(url, **({"pool_size": 1, "max_overflow": 0} if write else {}))
@@ -42,6 +45,12 @@ def connect_engine(url: str, *, write: bool) -> Engine:
     begin = "BEGIN IMMEDIATE" if write else "BEGIN"
     event.listen(engine, "begin", lambda connection: connection.exec_driver_sql(begin))
     return engine
+
+
+def connect_read_only(database: Path) -> Engine:
+    """An engine for an SQLite file that must not be changed."""
+    address = f"file:{quote(str(database.resolve()))}?mode=ro"
+    return create_engine("sqlite://", creator=lambda: sqlite3.connect(address, uri=True), poolclass=NullPool)
 
 
 def _set_up_sqlite(connection: Any, _record: Any) -> None:
@@ -71,6 +80,8 @@ def explained(what: str) -> Generator[None]:
         if reason is None and not isinstance(error, exc.OperationalError):
             raise
         raise StoreError(f"{what}: {reason or f'the database says “{error.orig}”'}.") from error
+    except sqlite3.Error as error:
+        raise StoreError(f"{what}: {_reason(str(error)) or f'the database says “{error}”'}.") from error
 
 
 def _reason(message: str) -> str | None:

@@ -2,58 +2,138 @@
 
 from __future__ import annotations
 
-import sqlite3
-from contextlib import closing
 from pathlib import Path
 
 from alembic import command
 from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import Connection
+from sqlalchemy import URL, Connection, inspect
 
-from fairyring.storage.db.engine import connect_engine, explained
+from fairyring.storage.db import schema
+from fairyring.storage.db.copying import copy_database
+from fairyring.storage.db.engine import connect_engine, connect_read_only, explained
 from fairyring.storage.errors import StoreError
 
+HEADER = b"SQLite format 3\x00"
 
-def upgrade(url: str, *, source: Path, existing: Path | None = None) -> None:
-    """Migrates the database at ``url`` in one transaction; an up-to-date one is left untouched.
+
+def make_tables(url: str | URL, *, source: Path) -> None:
+    """Brings an empty database, or one that holds a project, to the current schema.
 
     Args:
-        url: SQLAlchemy URL.
+        url: of the database.
         source: what errors name.
-        existing: an SQLite file that already holds a project; it is backed up beside itself first.
 
     Raises:
-        StoreError: made by a newer program, damaged, not writable.
+        StoreError: it holds another program's tables, was made by a newer Fairyring, is damaged or read-only.
     """
-    config = Config()
-    config.set_main_option("script_location", "fairyring.storage:migrations")
-    head = ScriptDirectory.from_config(config).get_current_head()
     engine = connect_engine(url, write=True)
     try:
         with explained(str(source)), engine.begin() as connection:
-            current = _current(connection, config, source)
-            if current == head:
-                return
-            if existing is not None:
-                _keep(existing, current)
-            config.attributes["connection"] = connection
-            command.upgrade(config, "head")
+            _migrate(connection, _revision_of(connection, source))
     finally:
         engine.dispose()
 
 
-def _current(connection: Connection, config: Config, source: Path) -> str | None:
+def upgrade(url: str | URL, *, source: Path, file: Path | None = None) -> None:
+    """Brings the database of a project to the current schema in one transaction, unless it has that already.
+
+    Args:
+        url: of the database.
+        source: what errors name.
+        file: where it lies, if it is SQLite's; it is backed up beside itself first.
+
+    Raises:
+        StoreError: it holds no project, was made by a newer Fairyring, is damaged or read-only.
+    """
+    revision = check_is_project(file) if file else _revision_at(url, source)
+    if revision == _head():
+        return
+    if file is not None:
+        _keep(file, revision)
+    engine = connect_engine(url, write=True)
+    try:
+        with explained(str(source)), engine.begin() as connection:
+            _migrate(connection, _revision_of(connection, source))
+    finally:
+        engine.dispose()
+
+
+def check_is_project(file: Path) -> str:
+    """The revision of the project in an SQLite file; looks without changing anything.
+
+    Raises:
+        StoreError: it is empty, damaged, of another program or of a newer Fairyring.
+    """
+    try:
+        with file.open("rb") as opened:
+            begin = opened.read(len(HEADER))
+    except OSError as error:
+        raise StoreError(f"{file} cannot be read: {error.strerror}.") from error
+    if not begin:
+        raise StoreError(f"{file} is empty; restore it from a backup.")
+    if begin != HEADER:
+        raise StoreError(f"{file} is not a Fairyring database or is damaged; restore the latest backup.")
+    engine = connect_read_only(file)
+    try:
+        with explained(str(file)), engine.connect() as connection:
+            revision = _revision_of(connection, file)
+    finally:
+        engine.dispose()
+    if revision is None:
+        raise StoreError(f"{file} holds no project; restore it from a backup.")
+    return revision
+
+
+def _revision_at(url: str | URL, source: Path) -> str:
+    engine = connect_engine(url, write=False)
+    try:
+        with explained(str(source)), engine.connect() as connection:
+            revision = _revision_of(connection, source)
+    finally:
+        engine.dispose()
+    if revision is None:
+        raise StoreError(f"The database of {source} holds no project; give back the one it had.")
+    return revision
+
+
+def _revision_of(connection: Connection, source: Path) -> str | None:
+    """None where the database holds nothing at all."""
+    tables = set(inspect(connection).get_table_names())
+    if not tables:
+        return None
     current = MigrationContext.configure(connection).get_current_revision()
-    known = {script.revision for script in ScriptDirectory.from_config(config).walk_revisions()}
-    if current is not None and current not in known:
+    if current is None or schema.project.name not in tables:
+        raise StoreError(f"{source}: the database is another program's; restore a backup, or move it away.")
+    if current not in {script.revision for script in _scripts().walk_revisions()}:
         raise StoreError(f"{source} was made by a newer Fairyring; update this program to open it.")
     return current
 
 
-def _keep(database: Path, revision: str | None) -> None:
-    """Backs the database up beside itself by SQLite's backup API, which is safe while others read it."""
-    copy = database.with_name(f"{database.name}.before-{revision or 'first'}-upgrade")
-    with closing(sqlite3.connect(database)) as source, closing(sqlite3.connect(copy)) as target:
-        source.backup(target)
+def _migrate(connection: Connection, revision: str | None) -> None:
+    if revision != _head():
+        config = _config()
+        config.attributes["connection"] = connection
+        command.upgrade(config, "head")
+
+
+def _config() -> Config:
+    config = Config()
+    config.set_main_option("script_location", "fairyring.storage:migrations")
+    return config
+
+
+def _scripts() -> ScriptDirectory:
+    return ScriptDirectory.from_config(_config())
+
+
+def _head() -> str | None:
+    return _scripts().get_current_head()
+
+
+def _keep(database: Path, revision: str) -> None:
+    """Backs the database up beside itself."""
+    copy = database.with_name(f"{database.name}.before-{revision}-upgrade")
+    copy.unlink(missing_ok=True)
+    copy_database(database, copy, named=database)

@@ -27,8 +27,9 @@ from fairyring.storage.importing.entering import (
     tell_more,
 )
 from fairyring.storage.importing.intake import Intake, take_in
-from fairyring.storage.importing.photos import Photo, Staging, photos_of_project, staging
+from fairyring.storage.importing.photos import Photo, photos_of_project
 from fairyring.storage.importing.sources import Sources, gather
+from fairyring.storage.importing.staging import Staging, staging
 from fairyring.storage.predictions import add_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Run
@@ -82,6 +83,7 @@ def import_paths(
         StoreError: nothing can be used, or ``strict`` and something is wrong. Nothing is changed.
     """
     check_name(user, "name of a user")
+    project.require_writable()
     with _no_garbage_collection():
         progress(0, 0, "Reading")
         sources = gather([Path(path) for path in paths], kind=kind)
@@ -91,7 +93,7 @@ def import_paths(
         if as_ == ImportAs.predictions:
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
-        with staging(project.images) as copies:
+        with staging(project) as copies:
             for done, photo in enumerate(intake.new_photos):
                 progress(done, len(intake.new_photos), "Copying photos")
                 if not link:

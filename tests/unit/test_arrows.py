@@ -25,10 +25,11 @@ DRAWINGS = {
         protocol  addresses  settings  editor_commands
     """,
     "storage": """
-        importing  exporting
+        importing  exporting  backup
         journal  formats  migrations
         project  images  contents  predictions  comparisons  derived
         db  cap_validity  open_predictions  originals
+        serving  whole_folders
         records  errors  folder  choices
     """,
     "model": """

@@ -2,6 +2,7 @@ import logging
 import re
 import sqlite3
 import threading
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from fairyring.storage.db import engine, schema, upgrade
 from fairyring.storage.db.engine import connect_engine, warn_of_network_drive
 from fairyring.storage.db.schema import metadata
 from fairyring.storage.errors import StoreError
-from fairyring.storage.project import back_up, create_project, open_project
+from fairyring.storage.project import create_project, open_project
 
 
 def insert_category(name):
@@ -79,6 +80,53 @@ def test_a_folder_that_cannot_be_made_says_why(tmp_path):
         create_project(tmp_path / "file" / "beds")
 
 
+def tables_of(database: Path) -> list[str]:
+    with closing(sqlite3.connect(database)) as connection:
+        return [name for (name,) in connection.execute("SELECT name FROM sqlite_master")]
+
+
+def test_an_empty_database_is_not_filled_with_an_empty_project(project):
+    project.close()
+    for file in project.folder.glob("project.db*"):
+        file.unlink()
+    (project.folder / "project.db").touch()
+    with pytest.raises(StoreError, match=r"project\.db is empty; restore it from a backup"):
+        open_project(project.folder)
+    (project.folder / "fairyring.toml").unlink()
+    with pytest.raises(StoreError, match=r"project\.db is empty"):
+        create_project(project.folder)
+    assert (project.folder / "project.db").stat().st_size == 0
+
+
+@pytest.mark.parametrize(
+    "statement", ["CREATE TABLE project (id)", "CREATE TABLE alembic_version (version_num)"]
+)
+def test_the_database_of_another_program_is_left_alone(project, statement):
+    project.close()
+    for file in project.folder.glob("project.db*"):
+        file.unlink()
+    with closing(sqlite3.connect(project.folder / "project.db")) as connection:
+        connection.execute(statement)
+    before = (project.folder / "project.db").read_bytes()
+
+    with pytest.raises(StoreError, match="another program's"):
+        open_project(project.folder)
+    (project.folder / "fairyring.toml").unlink()
+    with pytest.raises(StoreError, match="another program's"):
+        create_project(project.folder)
+    assert (project.folder / "project.db").read_bytes() == before
+
+
+def test_a_folder_may_be_called_anything(tmp_path):
+    for name in ("beds?v2", "beds#1", "100 % beds", "beds&mode=ro", "ü%3F"):
+        with create_project(tmp_path / name) as made:
+            made.write(insert_category(name))
+        with open_project(tmp_path / name) as opened:
+            assert opened.name == name
+        assert category_names(tmp_path / name / "project.db") == [name]
+    assert len(list(tmp_path.iterdir())) == 5
+
+
 @pytest.mark.parametrize("content", [b"not a database at all " * 400, b"SQLite format 3\0" + b"\xff" * 9000])
 def test_a_damaged_database_asks_for_the_backup(tmp_path, content):
     create_project(tmp_path / "beds").close()
@@ -104,7 +152,7 @@ def test_an_older_database_is_backed_up_before_it_is_migrated(project, monkeypat
         lambda connection: connection.execute(text("UPDATE alembic_version SET version_num = 'old'"))
     )
     project.close()
-    monkeypatch.setattr(upgrade, "_current", lambda *_: "old")
+    monkeypatch.setattr(upgrade, "_revision_of", lambda *_: "old")
     monkeypatch.setattr(upgrade.command, "upgrade", lambda *_: None)
     open_project(project.folder).close()
     copy = project.folder / "project.db.before-old-upgrade"
@@ -257,16 +305,6 @@ def test_a_database_locked_for_too_long_says_so(project, monkeypatch):
             second.write(insert_category("blocked"))
         other.execute("ROLLBACK")
         second.write(insert_category("free"))
-
-
-def test_a_backup_holds_everything_and_overwrites_nothing(project, tmp_path):
-    project.write(insert_category("kept"))
-    back_up(project, tmp_path / "backup.db")
-    assert category_names(tmp_path / "backup.db") == ["kept"]
-    with pytest.raises(StoreError, match="exists already"):
-        back_up(project, tmp_path / "backup.db")
-    with pytest.raises(StoreError, match="is not a folder"):
-        back_up(project, tmp_path / "nowhere" / "backup.db")
 
 
 def test_a_database_url_is_kept_in_the_settings(tmp_path):

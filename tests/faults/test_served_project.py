@@ -1,0 +1,49 @@
+"""A project that is served: by one server at a time, which closes it when it ends."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import PIL.Image
+import pytest
+
+from fairyring.app.bench.serving import FAIRYRING, Server, served
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.project import create_project
+from tests.support.tab import Tab, new_cap
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A project of one photo."""
+    PIL.Image.fromarray(np.full((240, 320, 3), 90, np.uint8)).save(tmp_path / "bed_1.jpg")
+    with create_project(tmp_path / "beds") as project:
+        import_paths(project, [tmp_path / "bed_1.jpg"])
+    return tmp_path / "beds"
+
+
+def test_a_second_server_says_where_the_first_is(folder: Path) -> None:
+    with served(folder) as first:
+        second = subprocess.run(
+            [*FAIRYRING, "serve", str(folder), "--port", str(Server(folder).port)],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    assert second.returncode == 1
+    assert f"{folder} is served already at http://localhost:{first.port}" in second.stderr
+
+
+@pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
+def test_a_server_that_is_told_to_end_closes_the_project(folder: Path, told: signal.Signals) -> None:
+    server = Server(folder)
+    server.start()
+    assert server.process is not None
+    with Tab(server.port, image=1) as tab:
+        tab.edit(new_cap(1))
+    server.process.send_signal(told)
+    assert server.process.wait(timeout=20) == 130
+    assert sorted(path.name for path in folder.glob("project.db*")) == ["project.db"]
