@@ -7,6 +7,7 @@ import pytest
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.importing.staging import Staging
 from fairyring.storage.journal import Derived, commit, history
 from fairyring.storage.records import Cap, Edit
 from tests.support.imported import annotations_of, files_of, rows_of
@@ -41,21 +42,16 @@ def test_an_import_that_is_cancelled_changes_nothing(project, tmp_path, write_co
 
 
 def test_photos_moved_in_before_a_commit_that_fails_are_removed(project, tmp_path, write_photo, monkeypatch):
-    from fairyring.storage.importing import photos as staged
-
-    def fail(_path):
-        raise OSError(28, "No space left on device")
-
     photo = write_photo(tmp_path / "bed.png")
-    move_in = staged.Staging.move_in
+    move_in = Staging.move_in
 
     def move_in_and_fail(self):
         move_in(self)
-        fail(None)
+        raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(staged.Staging, "move_in", move_in_and_fail)
+    monkeypatch.setattr(Staging, "move_in", move_in_and_fail)
     before = rows_of(project)
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(StoreError, match="images cannot be written: No space left on device"):
         import_paths(project, [photo])
     assert rows_of(project) == before
     assert files_of(project) == []
