@@ -22,12 +22,13 @@ def outline_in(
 ) -> Outline:
     """The outline in an image of this size, fit to be stored or drawn.
 
-    ``left_out`` hears which of several parts of it cannot be used; without it one such part is an error, and
-    in any case if there is no other part. Raises GeometryError.
+    ``left_out`` hears which of several parts of it cannot be used, and how many specks of a noisy mask were
+    left out; without it one such part is an error, and in any case if there is no other part. Raises
+    GeometryError.
     """
     if isinstance(segmentation, dict):
         check_size(segmentation, width=width, height=height)
-        return outline_of_rle(segmentation)
+        return outline_of_rle(segmentation, left_out=left_out or (lambda _what: None))
     return check_outline(segmentation, width=width, height=height, left_out=left_out)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from hashlib import blake2b
 
 import msgspec
@@ -50,7 +50,7 @@ def check_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[li
 def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     remarks: list[str] = []
     whole, centre = _checked_shape(found.whole, photo), _checked_centre(found.centre, photo)
-    cap = structs.replace(found.cap, visible=_visible(found, photo, whole))
+    cap = structs.replace(found.cap, visible=_visible(found, photo, whole, left_out=remarks.append))
     cap = check_cap(cap, width=photo.width, height=photo.height, left_out=remarks.append)
     if found.marked and cap.mark is None and centre is not None:
         cap = structs.replace(cap, mark=_mark_around(centre, cap.visible))
@@ -67,10 +67,12 @@ def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid, rle=None), remarks
 
 
-def _visible(found: FoundCap, photo: Photo, whole: Shape | None) -> Outline:
+def _visible(
+    found: FoundCap, photo: Photo, whole: Shape | None, *, left_out: Callable[[str], object]
+) -> Outline:
     """The visible outline; where a file gives only a worked-out whole outline, that one."""
     if found.rle is not None:
-        return outline_in(found.rle, width=photo.width, height=photo.height)
+        return outline_in(found.rle, width=photo.width, height=photo.height, left_out=left_out)
     if found.cap.visible or found.cap.mark is not None or whole is None:
         return found.cap.visible
     return [polygon_of_shape(whole)]

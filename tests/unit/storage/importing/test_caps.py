@@ -1,13 +1,17 @@
 """Caps as a file gives them: outlines, marks, categories, and what of them cannot be used."""
 
 import math
+import re
 
 import pytest
 
-from fairyring.model.geometry.shapes import Circle, Ellipse
+from fairyring.model.geometry.raster import rle_of_mask
+from fairyring.model.geometry.shapes import Circle, Ellipse, area_of_outline
+from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import annotations_of, reasons
+from tests.support.masks import disc, peppered
 from tests.unit.storage.conftest import TRIANGLE
 
 
@@ -39,6 +43,20 @@ def test_a_center_beside_its_circle_is_reported(beds, write_coco, square):
     report = import_paths(beds, [file])
     assert report.annotations == 1
     assert reasons(report) == ["Its center lies 5.0 px from that of its circle or ellipse, which was taken."]
+
+
+def test_a_noisy_mask_is_taken_without_its_specks_and_that_is_said(beds, write_coco):
+    whole = disc(50, 40, 30)
+    rle = rle_of_mask(peppered(whole, 0.02))
+
+    report = import_paths(beds, [write_coco([{"segmentation": rle}])])
+
+    (cap,) = annotations_of(beds)
+    assert area_of_outline(cap.cap.visible) == pytest.approx(whole.sum(), rel=0.02)
+    (reason,) = reasons(report)
+    assert re.fullmatch(r"[0-9]+ specks and holes of a few pixels were left out of its noisy mask\.", reason)
+    with pytest.raises(StoreError, match="specks"):
+        import_paths(beds, [write_coco([{"segmentation": rle}])], strict=True)
 
 
 BAD_OUTLINES = [
