@@ -6,6 +6,7 @@ import math
 import reprlib
 from collections.abc import Callable
 from typing import Any
+from unicodedata import normalize
 
 import msgspec
 
@@ -71,11 +72,13 @@ def flag(value: Any, key: str) -> bool:
 def base_name(value: Any) -> str:
     """The last part of a path of any system; folders in it are ignored, so nothing can be reached by it.
 
+    In Unicode's composed form: a Mac keeps the ü of a name as two characters, other systems as one.
+
     Raises ValueRefusedError where there is none.
     """
     if not isinstance(value, str):
         raise ValueRefusedError("The file name is missing.")
-    name = value.replace("\\", "/").rsplit("/", 1)[-1]
+    name = normalize("NFC", value.replace("\\", "/").rsplit("/", 1)[-1])
     too_long = len(name.encode(errors="replace")) > MOST_BYTES_OF_A_NAME
     if name in ("", ".", "..") or not name.isprintable() or too_long:
         raise ValueRefusedError(f"{value[:60]!r} is no file name.")

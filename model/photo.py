@@ -25,7 +25,7 @@ Image.MAX_IMAGE_PIXELS = None
 
 MAX_PIXELS = 250_000_000
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP")
-SUFFIXES = (".jpg", ".jpeg", ".jpe", ".png", ".tif", ".tiff", ".webp", ".bmp")
+SUFFIXES = (".jpg", ".jpeg", ".jpe", ".jfif", ".png", ".tif", ".tiff", ".webp", ".bmp")
 """Lower-case endings of files that may be photos."""
 ORIENTATION = 0x0112
 DEEP_MODES = ("F", "I")

@@ -172,6 +172,7 @@ def _copy(source: Path, target: Path) -> None:
     if probe(source).orientation == 1:
         shutil.copyfile(source, target)
         return
-    suffix = target.suffix.lower() or ".png"
+    # OpenCV goes by the ending, and does not know all of JPEG's.
+    suffix = target.suffix.lower().replace(".jfif", ".jpg") or ".png"
     _, encoded = cv2.imencode(suffix, read(source), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
     target.write_bytes(encoded.tobytes())

@@ -31,12 +31,14 @@ DIRECT_FORMATS = frozenset({"JPEG", "PNG", "WEBP"})
 DIRECT_MODES = frozenset({"1", "L", "P", "RGB", "RGBA"})
 LARGEST_ID = 2**63 - 1
 EXIF_ORIENTATION = 0x0112
+CACHED = "photos"
+"""Folder in the project's cache."""
 QUALITY_FULL, QUALITY_SCALED = 95, 88
 
 
 def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awaitable[Response]]:
     """The endpoint of `PHOTOS`, which takes a width as ``?w=``; ``cache_limit`` in bytes."""
-    cache = project.cache / "photos"
+    cache = project.cache / CACHED
     decoding = anyio.CapacityLimiter(2)
 
     async def photos(request: Request) -> Response:
@@ -47,7 +49,7 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
             return PlainTextResponse("There is no such photo in this project.", status_code=404)
         width = _width_wanted(request.query_params.get("w"), image)
         try:
-            file = await anyio.to_thread.run_sync(
+            file, media_type = await anyio.to_thread.run_sync(
                 _file_for, project, image, width, cache, cache_limit, limiter=decoding
             )
         except PhotoGoneError:
@@ -60,7 +62,7 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
             )
         except FairyringError as error:
             return PlainTextResponse(str(error), status_code=404)
-        return FileResponse(file, headers={"Cache-Control": FOR_EVER})
+        return FileResponse(file, media_type=media_type, headers={"Cache-Control": FOR_EVER})
 
     return photos
 
@@ -80,28 +82,34 @@ def _width_wanted(asked: str | None, image: Image) -> int | None:
     return next((width for width in WIDTHS if int(asked) <= width < image.width), None)
 
 
-def _file_for(project: Project, image: Image, width: int | None, cache: Path, cache_limit: int) -> Path:
-    """The file to send. Raises FairyringError where the photo is gone, is another or cannot be read."""
+def _file_for(
+    project: Project, image: Image, width: int | None, cache: Path, cache_limit: int
+) -> tuple[Path, str]:
+    """The file to send and its media type.
+
+    Raises FairyringError where the photo is gone, is another or cannot be read.
+    """
     source = project.originals.path_of(image)
-    if width is None and is_directly_showable(source):
-        return source
+    if width is None and (media_type := type_shown_as_it_is(source)) is not None:
+        return source, media_type
     made = cache / f"{image.sha256}-{width or 'full'}.jpg"
     if not made.is_file():
         _convert(source, made, image=image, width=width)
         make_room(cache, cache_limit)
-    return made
+    return made, PIL.Image.MIME["JPEG"]
 
 
-def is_directly_showable(source: Path) -> bool:
-    """Whether every browser shows this file itself just as it is decoded here: upright, 8 bits, no CMYK."""
+def type_shown_as_it_is(source: Path) -> str | None:
+    """Media type of a file that every browser shows just as it is decoded here: upright, 8 bits, no CMYK."""
     try:
         with PIL.Image.open(source) as opened:
             # Pillow calls 16-bit colour "RGB"; its decoder knows better, until the EXIF data is read.
             deep = any(";16" in str(tile[3]) for tile in opened.tile)
             upright = opened.getexif().get(EXIF_ORIENTATION, 1) == 1
-            return upright and not deep and opened.format in DIRECT_FORMATS and opened.mode in DIRECT_MODES
+            shown = upright and not deep and opened.format in DIRECT_FORMATS and opened.mode in DIRECT_MODES
+            return PIL.Image.MIME[opened.format or ""] if shown else None
     except (OSError, ValueError, PIL.Image.DecompressionBombError):
-        return False
+        return None
 
 
 def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> None:
@@ -118,6 +126,13 @@ def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> No
     partial = made.with_suffix(f".{os.getpid()}-{os.urandom(4).hex()}")
     partial.write_bytes(encoded.tobytes())
     partial.replace(made)
+
+
+def clear_unfinished(project: Project) -> None:
+    """Removes what a killed server was converting; for a server that is alone with the project."""
+    for file in (project.cache / CACHED).glob("*"):
+        if file.suffix != ".jpg":
+            file.unlink(missing_ok=True)
 
 
 def make_room(cache: Path, limit: int) -> None:

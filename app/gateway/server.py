@@ -25,20 +25,22 @@ from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
 from fairyring.app.gateway.downloads import downloads_of
 from fairyring.app.gateway.hidden_viser import Upstream, start_viser, stop_viser
 from fairyring.app.gateway.login import name_page
-from fairyring.app.gateway.photos import photos_of
+from fairyring.app.gateway.photos import clear_unfinished, photos_of
 from fairyring.app.gateway.security import LOOPBACK, Guard
 from fairyring.app.gateway.socket import editor_of
 from fairyring.app.gateway.static_files import static_file
 from fairyring.app.gateway.viser_client import load_viser, viser_file
 from fairyring.app.gateway.viser_page import page
 from fairyring.app.gateway.viser_relay import relay_to
+from fairyring.app.jobs.exports import exports_folder
 from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
 from fairyring.model.errors import FairyringError
 from fairyring.storage.importing.staging import clear_killed_imports
-from fairyring.storage.project import open_project
+from fairyring.storage.project import Project, open_project
 from fairyring.storage.serving import served
+from fairyring.storage.whole_folders import clear_leftovers
 
 log = logging.getLogger(__name__)
 
@@ -71,7 +73,7 @@ def serve(
         address = f"http://{_shown_host(settings.host)}:{listening.getsockname()[1]}"
         project = opened.enter_context(open_project(project_folder))
         opened.enter_context(served(project.folder, address=address))
-        clear_killed_imports(project)
+        _clear_leftovers(project)
         if project.read_only:
             log.warning("%s is read-only: it is shown as it is now, and changes are refused.", project.folder)
         workspace = Workspace(project, settings)
@@ -86,6 +88,13 @@ def serve(
         # Told to end, uvicorn shuts down and passes the signal on; by itself SIGTERM would end all here.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         server.run(sockets=[listening])
+
+
+def _clear_leftovers(project: Project) -> None:
+    """Removes what imports, exports and servers that were killed left in the project."""
+    clear_killed_imports(project)
+    clear_leftovers(exports_folder(project))
+    clear_unfinished(project)
 
 
 def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from uuid import uuid4
@@ -12,10 +11,10 @@ from fairyring.app.addresses import download_address
 from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.jobs.runner import Result
 from fairyring.model.progress import Progress
-from fairyring.model.whole_files import written_whole
 from fairyring.storage.choices import Only
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
+from fairyring.storage.whole_folders import temporary_folder
 
 KEPT = 3
 """How many zip files stay in the cache."""
@@ -33,10 +32,11 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
         fill_in(project, progress=progress)
         exports = exports_folder(project)
         exports.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=exports) as folder:
-            report = export_coco(project, Path(folder) / "coco", only=only, progress=progress)
-            made = exports / f"{uuid4().hex}.zip"
-            _zip(Path(folder) / "coco", made, progress)
+        with temporary_folder(exports) as folder:
+            report = export_coco(project, folder / "coco", only=only, progress=progress)
+            packed, made = folder / "coco.zip", exports / f"{uuid4().hex}.zip"
+            _zip(folder / "coco", packed, progress)
+            packed.replace(made)
         _drop_old(exports)
         message = " ".join([f"{report.images} images, {report.annotations} annotations.", *report.left_out])
         return Result(message, link=download_address(made.name))
@@ -47,7 +47,7 @@ def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]
 def _zip(folder: Path, made: Path, progress: Progress) -> None:
     """Zips a folder without compressing: photos are compressed already."""
     files = sorted(path for path in folder.rglob("*") if path.is_file())
-    with written_whole(made) as fresh, ZipFile(fresh, "w", ZIP_STORED) as archive:
+    with ZipFile(made, "w", ZIP_STORED) as archive:
         for done, file in enumerate(files):
             progress(done, len(files), "Packing")
             archive.write(file, file.relative_to(folder))

@@ -8,6 +8,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 from urllib.parse import quote
 
 from sqlalchemy import URL, Engine, create_engine, event, exc
@@ -54,6 +55,8 @@ def connect_read_only(database: Path) -> Engine:
 
 
 def _set_up_sqlite(connection: Any, _record: Any) -> None:
+    # SQLite's own knows upper and lower case of ASCII alone.
+    connection.create_function("lower", 1, _folded, deterministic=True)
     connection.isolation_level = None  # the driver's own BEGIN would come too late: transactions begin above
     for pragma in (
         "journal_mode = WAL",
@@ -64,6 +67,11 @@ def _set_up_sqlite(connection: Any, _record: Any) -> None:
         "cell_size_check = ON",
     ):
         connection.execute(f"PRAGMA {pragma}")
+
+
+def _folded(value: Any) -> Any:
+    """Text as it is compared where case does not matter."""
+    return normalize("NFC", value).casefold() if isinstance(value, str) else value
 
 
 @contextmanager

@@ -13,7 +13,8 @@ from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
 from fairyring.storage.importing.cap_checks import check_caps
-from fairyring.storage.importing.photos import Photo, examine, find_beside
+from fairyring.storage.importing.photo_names import PhotoNames, meant
+from fairyring.storage.importing.photos import Beside, Photo, examine
 from fairyring.storage.importing.sources import Document, Sources
 
 
@@ -27,6 +28,20 @@ class Intake(Struct, kw_only=True):
     caps: dict[str, list[FoundCap]] = field(default_factory=dict)
     """Caps checked against their photo, by its name."""
     problems: list[Problem] = field(default_factory=list)
+    names: PhotoNames = field(default_factory=PhotoNames)
+    """Of the photos."""
+    _beside: dict[Path, Beside] = field(default_factory=dict)
+    """By the folder of the label file."""
+
+    def __post_init__(self) -> None:
+        for name in self.photos:
+            self.names.add(name)
+
+    def beside_of(self, document: Path) -> Beside:
+        """What lies beside a label file; its folder is listed once."""
+        if document.parent not in self._beside:
+            self._beside[document.parent] = Beside(document)
+        return self._beside[document.parent]
 
     @property
     def new_photos(self) -> list[Photo]:
@@ -81,6 +96,7 @@ def _add(intake: Intake, photo: Photo) -> Photo:
     if other is not None and other.sha256 != photo.sha256:
         raise StoreError(f"Another image is called {photo.file_name} already; rename one of them.")
     intake.seen.add(photo.file_name)
+    intake.names.add(photo.file_name)
     return intake.photos.setdefault(photo.file_name, photo)
 
 
@@ -117,16 +133,22 @@ def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str 
 def _photo_of(intake: Intake, document: Path, image: FoundImage) -> Photo:
     """The photo of an image: in the project by base name and size, beside the file, or in ``images/``."""
     name = base_name(image.file_name)
-    photo = intake.photos.get(name)
+    near = intake.beside_of(document)
+    found_name = meant(name, intake.names, near.names) or name
+    photo = intake.photos.get(found_name)
     if photo is not None and _has_size(photo, image):
         return photo
-    beside = find_beside(document, name)
+    beside = near.path_of(found_name)
     if beside is not None:
         found = examine(beside)
         if _has_size(found, image):
             return _add(intake, found)
     if beside is None and photo is None:
-        raise StoreError(f"{name} is neither in the project nor beside this file nor in images/ beside it.")
+        other = intake.names.suggest(name) or near.names.suggest(name)
+        question = f"; if {other} is meant, call it that in this file" if other else ""
+        raise StoreError(
+            f"{name} is neither in the project nor beside this file nor in images/ beside it{question}."
+        )
     actual = photo or examine(beside) if beside else photo
     assert actual is not None, "one of the two was found"
     raise StoreError(

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 from msgspec import Struct, field
 from sqlalchemy import Connection, select
 
 from fairyring.model.json_values import base_name
-from fairyring.model.photo import probe
+from fairyring.model.photo import SUFFIXES, probe
 from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
+from fairyring.storage.importing.photo_names import PhotoNames
 
 
 class Photo(Struct, frozen=True, kw_only=True):
@@ -54,15 +56,28 @@ def examine(path: Path) -> Photo:
     )
 
 
-def find_beside(document: Path, name: str) -> Path | None:
-    """The photo of this base name beside a label file, or in ``images/`` beside it.
+class Beside:
+    """The photos beside a label file, and in ``images/`` beside it."""
 
-    Raises:
-        StoreError: it is a symbolic link, which could lead anywhere.
-    """
-    for candidate in (document.parent / name, document.parent / "images" / name):
-        if candidate.is_symlink():
-            raise StoreError(f"{candidate} is a symbolic link; import the file it points to first.")
-        if candidate.is_file():
-            return candidate
-    return None
+    def __init__(self, document: Path) -> None:
+        self.names = PhotoNames()
+        self._paths: dict[str, Path] = {}
+        for folder in (document.parent, document.parent / "images"):
+            for file in sorted(folder.iterdir()) if folder.is_dir() else ():
+                if file.suffix.lower() in SUFFIXES and file.is_file():
+                    self.names.add(file.name)
+                    self._paths.setdefault(normalize("NFC", file.name), file)
+
+    def path_of(self, name: str) -> Path | None:
+        """The photo of this name.
+
+        Raises:
+            StoreError: it or ``images/`` is a symbolic link, which could lead anywhere.
+        """
+        path = self._paths.get(name)
+        if path is None:
+            return None
+        for link in (path, path.parent if path.parent.name == "images" else path):
+            if link.is_symlink():
+                raise StoreError(f"{link} is a symbolic link; import what it points to first.")
+        return path

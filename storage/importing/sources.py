@@ -20,6 +20,8 @@ from fairyring.storage.formats.labelme import parse_labelme
 
 ARCHIVE_SUFFIXES = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"}
 LABEL_SUFFIXES = (".json", ".json.gz")
+LITTER = {".DS_Store", "Thumbs.db", "desktop.ini"}
+"""Files that desktops leave in every folder."""
 
 
 class Document(Struct, frozen=True, kw_only=True):
@@ -41,8 +43,9 @@ class Sources(Struct, frozen=True, kw_only=True):
 def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
     """Reads the label files and lists the photos.
 
-    Folders are searched to the bottom, in the order of names; hidden files and symbolic links in them
-    are passed over.
+    Folders are searched to the bottom, in the order of names. What is passed over there is among the
+    problems: hidden files, symbolic links, which could lead anywhere, and what is neither a photo nor a file
+    of labels by its name.
 
     Raises:
         StoreError: a path does not exist, or is an archive.
@@ -52,7 +55,7 @@ def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
         if path.suffix.lower() in ARCHIVE_SUFFIXES and not _holds_labels(path):
             raise StoreError(f"{path} is an archive; unpack it and import the folder.")
         if path.is_dir():
-            for file in _files_below(path):
+            for file in _files_below(path, sources.problems):
                 _take(file, sources, kind=kind, named=False)
         elif path.exists():
             _take(path, sources, kind=kind, named=True)
@@ -61,23 +64,47 @@ def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
     return sources
 
 
-def _files_below(folder: Path) -> Iterator[Path]:
-    for parent, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        for name in sorted(files):
-            file = Path(parent) / name
-            if not name.startswith(".") and not file.is_symlink():
-                yield file
+def _files_below(folder: Path, problems: list[Problem]) -> Iterator[Path]:
+    """Yields the files in a folder and below; adds what is passed over to the problems."""
+
+    def unreadable(error: OSError) -> None:
+        problems.append(Problem(str(error.filename), "", f"It was passed over: {error.strerror}."))
+
+    for parent, folders, files in os.walk(folder, onerror=unreadable):
+        within: list[str] = []
+        for name in sorted(folders + files):
+            path = Path(parent) / name
+            if (reason := _reason_to_pass_over(path)) is not None:
+                problems.append(Problem(str(path), "", f"It was passed over: {reason}."))
+            elif name in folders:
+                within.append(name)
+            elif name not in LITTER:
+                yield path
+        folders[:] = within
+
+
+def _reason_to_pass_over(path: Path) -> str | None:
+    if path.name in LITTER:
+        return None
+    if path.is_symlink():
+        return "it is a symbolic link; import what it points to"
+    if path.name.startswith("."):
+        return "it is hidden; rename it to import it"
+    return None
 
 
 def _take(file: Path, sources: Sources, *, kind: ImportFormat, named: bool) -> None:
     is_document = _holds_labels(file) or (named and kind in (ImportFormat.coco, ImportFormat.labelme))
+    is_photo = named or file.suffix.lower() in SUFFIXES
     if is_document and kind != ImportFormat.images:
         _read(file, sources, kind=kind)
-    elif kind in (ImportFormat.auto, ImportFormat.images) and (named or file.suffix.lower() in SUFFIXES):
+    elif is_photo and kind in (ImportFormat.auto, ImportFormat.images):
         sources.photos.append(file)
     elif named:
         sources.problems.append(Problem(str(file), "", f"This is no file of the format {kind}."))
+    elif not is_document and not is_photo:
+        reason = "It was passed over: by its name it is neither a photo nor a file of labels."
+        sources.problems.append(Problem(str(file), "", reason))
 
 
 def _holds_labels(file: Path) -> bool:

@@ -47,3 +47,25 @@ def test_a_server_that_is_told_to_end_closes_the_project(folder: Path, told: sig
     server.process.send_signal(told)
     assert server.process.wait(timeout=20) == 130
     assert sorted(path.name for path in folder.glob("project.db*")) == ["project.db"]
+
+
+def test_what_was_killed_in_the_middle_is_cleared_when_the_project_is_served(folder: Path) -> None:
+    number = 32 * "0"
+    left = [
+        folder / "images" / f".fairyring-{number}" / "bed_2.jpg",
+        folder / "cache" / "exports" / f".fairyring-{number}" / "coco.zip",
+        folder / "cache" / "photos" / f"{number}-full.123-abcd",
+    ]
+    kept = [
+        folder / "images" / "bed_1.jpg",
+        folder / "cache" / "exports" / f"{number}.zip",
+        folder / "cache" / "photos" / f"{number}-full.jpg",
+    ]
+    for file in left + kept[1:]:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(b"content")
+
+    with served(folder):
+        assert [file for file in left if file.exists()] == []
+        assert [file for file in kept if not file.exists()] == []
+    assert list(folder.rglob(".fairyring-*")) == []

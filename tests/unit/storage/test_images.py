@@ -16,6 +16,7 @@ from fairyring.storage.images import (
     set_status,
     sort_name,
 )
+from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import add_run
 
 
@@ -99,6 +100,13 @@ def test_a_page_is_part_of_the_list_and_knows_its_length(beds):
 )
 def test_the_search_takes_every_character_for_itself(beds, search, found):
     assert len(names(beds, ImageFilter(search=search))) == found
+
+
+@pytest.mark.parametrize("search", ["GRÜN", "grün", "gru\u0308n", "STRASSE", "straße", "ΣΟΦ"])
+def test_the_search_knows_upper_and_lower_case_of_all_letters(project, tmp_path, write_photo, search):
+    names_on_disk = ("Grünbeet_1.png", "straße_2.png", "σοφός_3.png")
+    import_paths(project, [write_photo(tmp_path / name) for name in names_on_disk])
+    assert len(names(project, ImageFilter(search=search))) == 1
 
 
 FILTERS = [

@@ -15,7 +15,7 @@ from sqlalchemy import update
 
 from fairyring.app.addresses import photo_address
 from fairyring.app.gateway import photos
-from fairyring.app.gateway.photos import is_directly_showable
+from fairyring.app.gateway.photos import type_shown_as_it_is
 from fairyring.storage.db.schema import image as image_table
 from fairyring.storage.images import find_image
 from fairyring.storage.importing.paths import import_paths
@@ -70,12 +70,20 @@ def test_a_plain_jpeg_is_sent_as_it_is_and_kept_for_ever(port: int, project: Pro
     assert "immutable" in answer.headers["cache-control"]
 
 
+@pytest.mark.parametrize("name", ["bed.jfif", "named_so.png", "bed.jpe"])
+def test_a_photo_is_served_by_what_it_is(port: int, project: Project, tmp_path: Path, name: str) -> None:
+    quarters(80, 60).save(tmp_path / name, format="JPEG")
+    answer, pixels = fetch(port, added(project, tmp_path / name))
+    assert answer.headers["content-type"] == "image/jpeg"
+    assert_quarters(pixels)
+
+
 def test_a_turned_photo_comes_upright(port: int, project: Project, tmp_path: Path) -> None:
     file = tmp_path / "turned.jpg"
     exif = PIL.Image.Exif()
     exif[0x0112] = ROTATED
     quarters(60, 80).transpose(PIL.Image.Transpose.ROTATE_90).save(file, quality=95, exif=exif)
-    assert not is_directly_showable(file)
+    assert type_shown_as_it_is(file) is None
     _, pixels = fetch(port, added(project, file))
     assert pixels.shape == (80, 60, 3)
     assert_quarters(pixels)

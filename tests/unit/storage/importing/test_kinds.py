@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -43,3 +44,34 @@ def test_an_import_of_images_leaves_labels_alone(project, write_coco, write_phot
     write_photo(file.parent / "bed_1.png")
     report = import_paths(project, [file.parent], kind="images")
     assert (report.images, report.annotations) == (1, 0)
+
+
+def test_all_that_is_passed_over_in_a_folder_is_named(project, tmp_path, write_photo):
+    folder = tmp_path / "in"
+    outside = write_photo(tmp_path / "outside.png")
+    for name in ("good.png", "other.jpg", ".hidden.png", ".cache/deep.png", "deep/.also.png"):
+        write_photo(folder / name)
+    (folder / "other.jpg").rename(folder / "other.JFIF")
+    for name in ("bed.heic", "notes.txt", "video", ".DS_Store", "Thumbs.db"):
+        (folder / name).write_text("")
+    (folder / "linked.png").symlink_to(outside)
+    (folder / "linked").symlink_to(tmp_path)
+    (folder / "broken.png").symlink_to(tmp_path / "nowhere")
+
+    report = import_paths(project, [folder])
+
+    assert report.images == 2
+    passed_over = {str(Path(p.file).relative_to(folder)): p.reason for p in report.problems}
+    assert {name: reason.split(";")[0] for name, reason in passed_over.items()} == {
+        ".cache": "It was passed over: it is hidden",
+        ".hidden.png": "It was passed over: it is hidden",
+        "deep/.also.png": "It was passed over: it is hidden",
+        "linked": "It was passed over: it is a symbolic link",
+        "linked.png": "It was passed over: it is a symbolic link",
+        "broken.png": "It was passed over: it is a symbolic link",
+        "bed.heic": "It was passed over: by its name it is neither a photo nor a file of labels.",
+        "notes.txt": "It was passed over: by its name it is neither a photo nor a file of labels.",
+        "video": "It was passed over: by its name it is neither a photo nor a file of labels.",
+    }
+    with pytest.raises(StoreError, match=r"Nothing was imported, as asked: .*\(8 more\)"):
+        import_paths(project, [folder], strict=True)

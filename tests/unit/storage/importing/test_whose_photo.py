@@ -1,5 +1,7 @@
 """Whose photo a COCO file speaks of: by base name and size, in the project or beside the file."""
 
+from unicodedata import normalize
+
 import pytest
 
 from fairyring.storage.errors import StoreError
@@ -69,3 +71,74 @@ def test_a_size_that_differs_is_reported_in_figures(beds, write_coco, square):
     images = [{"id": 1, "file_name": "bed_1.png", "width": 80, "height": 100}]
     with pytest.raises(StoreError, match="100 × 80 pixels when upright, but this file says 80 × 100"):
         import_paths(beds, [write_coco([{"segmentation": square}], images=images)])
+
+
+SPELLINGS = [
+    (normalize("NFD", "Beet é ü.png"), normalize("NFC", "Beet é ü.png")),
+    (normalize("NFC", "Beet é ü.png"), normalize("NFD", "Beet é ü.png")),
+    ("IMG_1.JPG", "img_1.jpg"),
+    ("Straße.png", "STRASSE.PNG"),
+    ("Beet 1 é.png", "Beet%201%20%C3%A9.png"),
+    ("bed_1.png", "/data/upload/3/9f1c2d3e-bed_1.png"),
+    ("bed 1.png", "/data/upload/3/9f1c2d3e-bed%201.png"),
+    ("100%25.png", "100%25.png"),
+]
+
+
+@pytest.fixture(params=SPELLINGS, ids=[other for _, other in SPELLINGS])
+def spelt_otherwise(request, tmp_path, write_coco, write_photo, square):
+    """A photo, and a file that labels it by another spelling of its name."""
+    on_disk, in_the_file = request.param
+    photo = write_photo(tmp_path / "labels" / on_disk)
+    return photo, write_coco([{"segmentation": square}], images=[{"id": 1, "file_name": in_the_file}])
+
+
+def test_a_photo_beside_the_file_is_known_however_tools_write_its_name(project, spelt_otherwise):
+    photo, file = spelt_otherwise
+    report = import_paths(project, [file], strict=True)
+    assert (report.annotations, report.images) == (1, 1)
+    with project.read() as connection:
+        assert find_image(connection, normalize("NFC", photo.name)) is not None
+
+
+def test_a_photo_of_the_project_is_known_however_tools_write_its_name(project, spelt_otherwise):
+    photo, file = spelt_otherwise
+    import_paths(project, [photo])
+    photo.unlink()
+    report = import_paths(project, [file], strict=True)
+    assert (report.annotations, report.images_known) == (1, 1)
+
+
+def test_two_photos_that_differ_in_case_are_not_taken_for_each_other(
+    project, tmp_path, write_coco, write_photo, square
+):
+    for name in ("bed.png", "BED.png"):
+        write_photo(tmp_path / "labels" / name)
+    images = [{"id": 1, "file_name": "BED.png"}, {"id": 2, "file_name": "Bed.png"}]
+    file = write_coco([{"segmentation": square}, {"image_id": 2, "segmentation": square}], images=images)
+
+    report = import_paths(project, [file])
+
+    assert report.annotations == 1
+    with project.read() as connection:
+        assert find_image(connection, "BED.png") is not None
+    (reason,) = reasons(report)
+    assert reason.startswith("Bed.png is neither in the project nor beside this file")
+    assert "if bed.png is meant" in reason or "if BED.png is meant" in reason
+
+
+@pytest.mark.parametrize(
+    "name", ["bed_1_png.rf.0123456789abcdef.jpg", "copy of bed_1.png", "bed_1.jpg", "bde_1.png"]
+)
+def test_a_name_that_is_nearly_one_is_asked_about(beds, write_coco, square, name):
+    file = write_coco([{"segmentation": square}], images=[{"id": 1, "file_name": name}])
+    with pytest.raises(StoreError, match=r"if bed_1\.png is meant, call it that in this file"):
+        import_paths(beds, [file])
+
+
+def test_a_linked_folder_beside_the_file_is_not_followed(project, tmp_path, write_coco, write_photo, square):
+    write_photo(tmp_path / "private" / "bed_1.png")
+    file = write_coco([{"segmentation": square}])
+    (file.parent / "images").symlink_to(tmp_path / "private")
+    with pytest.raises(StoreError, match="images is a symbolic link; import what it points to"):
+        import_paths(project, [file])
