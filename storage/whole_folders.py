@@ -89,11 +89,14 @@ def _locked_folder(parent: Path) -> tuple[Path, int]:
     while True:
         folder = parent / f".fairyring-{uuid4().hex}"
         folder.mkdir()
-        lock = os.open(folder, os.O_RDONLY)
+        try:
+            lock = os.open(folder, os.O_RDONLY)
+        except FileNotFoundError:
+            continue  # not locked for a moment, it was cleared away
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            os.close(lock)  # somebody clears it away already: it was not locked for a moment
+            os.close(lock)  # it is being cleared away
             continue
         except OSError:
             return folder, lock  # where no locks are known, nobody clears anything away

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -71,6 +72,19 @@ def test_what_a_killed_process_left_is_cleared_and_what_is_being_made_is_not(tmp
     making[1].wait()
     clear_leftovers(tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {".fairyring-notes", "other"}
+
+
+def test_folders_made_at_once_in_one_place_do_not_clear_each_other(tmp_path: Path) -> None:
+    def make(number: int) -> None:
+        for nth in range(30):
+            with made_whole(tmp_path / f"{number}-{nth}") as folder:
+                (folder / "file").touch()
+
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(make, range(4)))
+    made = list(tmp_path.iterdir())
+    assert len(made) == 120
+    assert all((folder / "file").exists() for folder in made)
 
 
 def test_a_temporary_folder_is_gone_after_its_block(tmp_path: Path) -> None:
