@@ -38,13 +38,18 @@ def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], ob
     return structs.replace(cap, visible=visible, mark=mark)
 
 
+def is_name(text: str) -> bool:
+    """Whether this is a short, printable, single line."""
+    return 0 < len(text) <= MAX_NAME and text.isprintable()
+
+
 def check_name(text: str, what: str) -> str:
     """The name, if it is a short, printable, single line.
 
     Raises:
         StoreError: empty, longer than ``MAX_NAME`` or with control characters.
     """
-    if not text or len(text) > MAX_NAME or not text.isprintable():
+    if not is_name(text):
         raise StoreError(f"A {what} is 1 to {MAX_NAME} printable characters.")
     return text
 

@@ -1,15 +1,19 @@
-"""Inserts many rows at once: one prepared statement, and each column converted as a whole."""
+"""Inserts and updates of many rows at once."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from sqlalchemy import Connection, Table, insert
+from sqlalchemy import Column, Connection, Table, bindparam, insert, update
 
 
 def insert_many(connection: Connection, table: Table, rows: Sequence[dict[str, Any]]) -> None:
-    """Adds rows that all name the same columns; half the time of ``execute``, which works row by row."""
+    """Adds rows that all name the same columns; half the time of ``execute``, which works row by row.
+
+    One prepared statement is run, and each column converted as a whole.
+    """
     if not rows:
         return
     dialect = connection.dialect
@@ -26,3 +30,14 @@ def insert_many(connection: Connection, table: Table, rows: Sequence[dict[str, A
     connection.exec_driver_sql(
         str(statement), [dict(zip(order, row, strict=True)) for row in values] if by_name else list(values)
     )
+
+
+def update_many(
+    connection: Connection, table: Table, key: Column[Any], rows: Mapping[Any, dict[str, Any]]
+) -> None:
+    """Changes the columns named of the rows whose ``key`` column has these values."""
+    alike: dict[frozenset[str], list[dict[str, Any]]] = defaultdict(list)
+    for value, row in rows.items():
+        alike[frozenset(row)].append({"changed_row": value} | row)
+    for parameters in alike.values():
+        connection.execute(update(table).where(key == bindparam("changed_row")), parameters)

@@ -27,7 +27,7 @@ DRAWINGS = {
     "storage": """
         importing  exporting  backup
         journal  formats  migrations
-        project  images  contents  predictions  comparisons  derived
+        project  images  contents  predictions  comparisons  derived  ledger
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

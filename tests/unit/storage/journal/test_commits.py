@@ -3,7 +3,7 @@
 import threading
 
 import pytest
-from sqlalchemy import text
+from sqlalchemy import Engine, event, text
 
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage import journal
@@ -133,3 +133,36 @@ def test_caps_are_checked_before_the_transaction_that_everybody_waits_for(beds, 
     monkeypatch.setattr(journal, "check_cap", check)
     assert isinstance(one(beds, cap=cap), Accepted)
     assert threads == [threading.current_thread().name]
+
+
+def test_an_outcome_shows_the_annotation_as_the_store_has_it(beds, cap):
+    moved = Cap(visible=TRIANGLE, mark=Circle(20, 20, 5), doubtful=True, order=2)
+    sets = [
+        [
+            edit("1", cap=cap, whole=Circle(9, 8, 7), centre=(9.0, 8.0)),
+            edit("2", annotation="other", cap=cap),
+        ],
+        [edit("3", base=1, cap=moved), edit("4", annotation="other", base=1)],
+        [edit("5", base=2), edit("6", base=3, cap=cap), edit("7", annotation="third", cap=moved)],
+    ]
+    for change_set in sets:
+        outcomes = commit(beds, change_set, user="ann")
+        last = {outcome.annotation.uid: outcome.annotation for outcome in outcomes}
+        with beds.read() as connection:
+            assert {uid: stored_annotation(connection, uid) for uid in last} == last
+
+
+def test_many_edits_ask_the_database_no_more_often_than_a_few(beds, cap, request):
+    asked, counts = [], []
+
+    def listen(*given):
+        asked.append(given[2])
+
+    event.listen(Engine, "before_cursor_execute", listen)
+    request.addfinalizer(lambda: event.remove(Engine, "before_cursor_execute", listen))
+    for batch, size in enumerate((3, 300)):
+        made = [edit(f"{batch} {n}", annotation=f"{batch} {n}", cap=cap) for n in range(size)]
+        asked.clear()
+        assert all(isinstance(outcome, Accepted) for outcome in commit(beds, made, user="ann"))
+        counts.append(len(asked))
+    assert counts[1] <= counts[0] < 20
