@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from msgspec import structs
 
+from fairyring.model.geometry.clipping import clipped_outline
 from fairyring.model.geometry.outline_checks import check_mark, check_outline
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Cap
@@ -16,7 +17,9 @@ MAX_ORDER = 1_000_000
 
 
 def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], object] | None = None) -> Cap:
-    """The cap with its visible outline repaired where it crosses itself, and its mark in standard form.
+    """The cap with its mark in standard form and its visible outline put right.
+
+    Where the outline crosses itself it is repaired; it ends where the image does, which a mark need not.
 
     Args:
         cap: outline and mark in pixels of the upright image; one of the two must be there.
@@ -35,7 +38,8 @@ def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], ob
     check_name(cap.category, "category")
     mark = None if cap.mark is None else check_mark(cap.mark, width=width, height=height)
     visible = cap.visible and check_outline(cap.visible, width=width, height=height, left_out=left_out)
-    return structs.replace(cap, visible=visible, mark=mark)
+    inside = visible and clipped_outline(visible, width=width, height=height)
+    return structs.replace(cap, visible=inside, mark=mark)
 
 
 def is_name(text: str) -> bool:

@@ -110,13 +110,13 @@ def _images(connection: Connection, only: Only) -> list[Image]:
 
 def _caps(
     connection: Connection, images: list[Image], *, only: Only, with_ignored: bool, progress: Progress
-) -> Iterator[tuple[int, Cap]]:
+) -> Iterator[tuple[int, Image, Cap]]:
     load = _loader(connection, only)
     for number, image in enumerate(images, start=1):
         progress(number - 1, len(images), "Writing labels")
         for cap in load(image):
             if with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
-                yield number, cap
+                yield number, image, cap
 
 
 def _loader(connection: Connection, only: Only) -> Callable[[Image], list[Any]]:
@@ -132,14 +132,15 @@ def _loader(connection: Connection, only: Only) -> Callable[[Image], list[Any]]:
     return load
 
 
-def _entries(caps: Iterator[tuple[int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
-    for number, (image, cap) in enumerate(caps, start=1):
+def _entries(caps: Iterator[tuple[int, Image, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+    for number, (of_image, image, cap) in enumerate(caps, start=1):
+        size = image.width, image.height
         if isinstance(cap, Annotation):
             category = categories[cap.cap.category]
-            yield annotation_entry(cap, number=number, image=image, category=category)
+            yield annotation_entry(cap, number=number, image=of_image, size=size, category=category)
         else:
             category = categories[cap.category]
-            yield prediction_entry(cap, number=number, image=image, category=category)
+            yield prediction_entry(cap, number=number, image=of_image, size=size, category=category)
 
 
 def _info(connection: Connection, project: Project, only: Only) -> dict[str, Any]:

@@ -27,10 +27,19 @@ def covered_parts(points: Points, *, rule: FillRule, speck: float = 0) -> list[P
     faces = shapely.get_parts(shapely.polygonize([noded]))
     turns = winding_numbers(shapely.get_coordinates(shapely.point_on_surface(faces)), points)
     covered = turns % 2 == 1 if rule == "evenodd" else turns != 0
-    whole = shapely.coverage_union_all(faces[covered])
+    whole = _united(faces[covered])
     least = speck * shapely.area(whole)
     lobes = [lobe for lobe in shapely.get_parts(whole) if shapely.area(lobe) > least]
     return [_part(lobe, least=least) for lobe in lobes]
+
+
+def _united(faces: NDArray[np.object_]) -> shapely.Geometry:
+    """All of some faces, which share edges and, but for rounding, nothing else."""
+    try:
+        return shapely.coverage_union_all(faces)
+    except shapely.GEOSException:
+        # Edges that nearly run along each other were rounded over each other.
+        return shapely.union_all(faces)
 
 
 def winding_numbers(places: Points, polygon: Points) -> NDArray[np.int64]:

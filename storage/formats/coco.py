@@ -42,7 +42,7 @@ CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {
     *("id", "image_id", "category_id", "segmentation", "bbox", "area", "iscrowd", "score", "uid"),
     *("ignore", "ignored", "doubt", "doubtful", "order", "center", "circle", "ellipse", "mark", "marked"),
-    *("segmentation_of", "occlude_rate"),
+    *("segmentation_of", "occlude_rate", "refusal"),
 }
 DERIVED_KEYS = {"keypoints", "num_keypoints", "amodal_segmentation"}
 """Written by our export from what else it writes; where others wrote them they are kept."""

@@ -16,34 +16,45 @@ from fairyring.model.coco.writing import (
     rounded_outline,
     whole_keys,
 )
-from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, polygon_of_shape
+from fairyring.model.geometry.clipping import clipped_outline
+from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, polygon_of_shape
+from fairyring.storage.formats.foreign_keys import without_geometry
 from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
 
 KEYPOINTS = ["centre"]
 
 
-def annotation_entry(annotation: Annotation, *, number: int, image: int, category: int) -> dict[str, Any]:
-    """The entry of an annotation. ``image`` and ``category`` are numbers within the file."""
+def annotation_entry(
+    annotation: Annotation, *, number: int, image: int, size: tuple[int, int], category: int
+) -> dict[str, Any]:
+    """The entry of an annotation.
+
+    ``image`` and ``category`` are numbers within the file, ``size`` is the image's width and height.
+    """
     cap = annotation.cap
     marked = cap.mark is not None
     whole, centre = annotation.whole, annotation.centre
     if isinstance(cap.mark, Circle | Ellipse):
         whole, centre = cap.mark, (cap.mark.cx, cap.mark.cy)
-    entry = _geometry(cap.visible, cap.mark, whole)
+    entry = _geometry(cap.visible, cap.mark, whole, size=size)
     entry |= {"image_id": image, "category_id": category, "iscrowd": int(cap.ignored), "marked": marked}
     entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
     entry |= {"doubt": True} if cap.doubtful else {}
     entry |= {"ignored": True} if cap.ignored else {}
     entry |= {} if cap.order is None else {"order": cap.order}
-    if annotation.revision == 1 and "amodal_segmentation" in annotation.extra:
-        # Nobody has touched the cap since it was imported, so the file's own whole outline still holds.
-        entry["amodal_segmentation"] = annotation.extra["amodal_segmentation"]
-    return {"id": number} | annotation.extra | entry | {"uid": annotation.uid}
+    # As long as nobody has touched the cap since it was imported, what its file said of it still holds.
+    untouched = annotation.revision == 1
+    extra = annotation.extra if untouched else without_geometry(annotation.extra)
+    if "amodal_segmentation" in extra:
+        entry["amodal_segmentation"] = extra["amodal_segmentation"]
+    return {"id": number} | extra | entry | {"uid": annotation.uid}
 
 
-def prediction_entry(prediction: Prediction, *, number: int, image: int, category: int) -> dict[str, Any]:
-    """The entry of a prediction, with its score."""
-    entry = _geometry(prediction.visible, None, prediction.whole)
+def prediction_entry(
+    prediction: Prediction, *, number: int, image: int, size: tuple[int, int], category: int
+) -> dict[str, Any]:
+    """The entry of a prediction, with its score; the rest as for ``annotation_entry``."""
+    entry = _geometry(prediction.visible, None, prediction.whole, size=size)
     entry |= {"image_id": image, "category_id": category, "iscrowd": 0, "score": prediction.score}
     entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
     return {"id": number} | prediction.extra | entry
@@ -81,8 +92,10 @@ def write_document(file: BinaryIO, head: dict[str, Any], entries: Iterable[dict[
     return count
 
 
-def _geometry(visible: Outline, mark: Mark | None, whole: Shape | None) -> dict[str, Any]:
-    entry = outline_keys(rounded_outline(visible or [_polygon_of(mark)]))
+def _geometry(
+    visible: Outline, mark: Mark | None, whole: Shape | None, *, size: tuple[int, int]
+) -> dict[str, Any]:
+    entry = outline_keys(rounded_outline(_inside(visible or [_polygon_of(mark)], size)))
     if not visible:
         entry["segmentation_of"] = "mark"
     if isinstance(mark, Polygon):
@@ -90,6 +103,14 @@ def _geometry(visible: Outline, mark: Mark | None, whole: Shape | None) -> dict[
     if whole is not None:
         entry |= whole_keys(whole, visible_area=entry["area"] if visible else None)
     return entry
+
+
+def _inside(outline: Outline, size: tuple[int, int]) -> Outline:
+    """What of it the photo shows; all of a mark beside the photo, which an annotation cannot do without."""
+    try:
+        return clipped_outline(outline, width=size[0], height=size[1])
+    except GeometryError:
+        return outline
 
 
 def _polygon_of(mark: Mark | None) -> list[float]:

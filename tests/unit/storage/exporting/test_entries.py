@@ -9,7 +9,9 @@ from pycocotools import mask
 from pycocotools.coco import COCO
 
 from fairyring.model.geometry.shapes import Circle, Ellipse
-from fairyring.storage.records import Cap
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.records import Cap, Edit
 from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
@@ -76,3 +78,55 @@ def test_other_libraries_load_an_export(beds, out, loader):
     # A square of 20 px, half a box of 20 px, and a disc of 9 px.
     assert areas[0] == pytest.approx(600, abs=12)
     assert areas[1] == pytest.approx(math.pi * 81, abs=8)
+
+
+def test_what_is_visible_ends_where_the_photo_does_and_the_whole_cap_need_not(beds, out):
+    # Photos of 100 × 80; a quarter of the square lies in one.
+    store(
+        beds,
+        Cap(visible=[[-20.0, -20.0, 20.0, -20.0, 20.0, 20.0, -20.0, 20.0]]),
+        Cap(visible=[], mark=Circle(100, 40, 20)),
+        whole=Circle(0, 0, 20),
+        centre=(0.0, 0.0),
+    )
+    seen, marked = export(beds, out)["annotations"]
+    assert (seen["bbox"], seen["area"], seen["circle"]) == ([0, 0, 20, 20], 400, [0, 0, 20])
+    assert min(seen["amodal_segmentation"][0]) < -19
+    assert seen["occlude_rate"] == pytest.approx(1 - 400 / (math.pi * 20**2), abs=0.01)
+    assert marked["bbox"] == pytest.approx([80, 20, 20, 40], abs=0.1)
+    assert (marked["circle"], marked["segmentation_of"]) == ([100, 40, 20], "mark")
+
+
+def test_a_mark_beside_the_photo_is_still_written(beds, out):
+    store(beds, Cap(visible=[], mark=Circle(150, 40, 10)))
+    (annotation,) = export(beds, out)["annotations"]
+    assert annotation["bbox"] == pytest.approx([140, 30, 20, 20], abs=0.2)
+
+
+def test_what_other_programs_said_of_its_geometry_goes_with_the_first_edit(beds, out, tmp_path, write_coco):
+    geometry = {
+        "i_bbox": [10, 10, 20, 20],
+        "i_segm": [SQUARE],
+        "amodal_segmentation": [SQUARE, TRIANGLE],
+        "visible_fraction": 0.8,
+        "centroid": {"x": 20, "y": 20},
+        "hull": [[10, 10], [30, 10], [30, 30]],
+        "somehow": [10, 10, 30, 30],
+    }
+    others = {"note": "by the door", "attributes": {"occluded": False, "variety": "brown"}, "tags": [1, 2]}
+    import_paths(beds, [write_coco([{"segmentation": [SQUARE], **geometry, **others}])])
+    (annotation,) = export(beds, out)["annotations"]
+    assert annotation.items() >= (geometry | others).items()
+    moved = [[value + 5 for value in SQUARE]]
+    edit = Edit(id="e", annotation=annotation["uid"], image=1, base=1, cap=Cap(visible=moved))
+    commit(beds, [Derived(edit=edit)], user="ann")
+    (annotation,) = export(beds, tmp_path / "again")["annotations"]
+    assert annotation["segmentation"] == moved
+    assert not annotation.keys() & geometry.keys()
+    assert (annotation["note"], annotation["tags"]) == ("by the door", [1, 2])
+    assert annotation["attributes"] == {"variety": "brown"}
+
+
+def test_a_refusal_of_long_ago_is_not_exported(beds, out, write_coco):
+    import_paths(beds, [write_coco([{"segmentation": [SQUARE], "center": None, "refusal": "too small"}])])
+    assert "refusal" not in export(beds, out)["annotations"][0]

@@ -103,7 +103,10 @@ caps = st.builds(
 def written_and_read(stored):
     """The caps as the entries of a file give them back; numbered to tell them apart."""
     annotations = [Annotation(uid=f"cap_{n}", image=1, revision=1, cap=cap) for n, cap in enumerate(stored)]
-    entries = [annotation_entry(a, number=n, image=1, category=1) for n, a in enumerate(annotations, start=1)]
+    entries = [
+        annotation_entry(a, number=n, image=1, size=(100, 80), category=1)
+        for n, a in enumerate(annotations, start=1)
+    ]
     document = {
         "images": [{"id": 1, "file_name": "bed.png", "width": 100, "height": 80}],
         "categories": [{"id": 1, "name": "mushroom"}],

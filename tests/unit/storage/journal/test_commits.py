@@ -28,6 +28,14 @@ def test_an_accepted_edit_is_in_the_file(beds, cap):
     assert journal_rows(beds) == [("e1", "cap", 0, 1, "ann")]
 
 
+def test_an_outline_ends_where_the_photo_does(beds):
+    leaving = Cap(visible=[[90.0, 10.0, 130.0, 10.0, 130.0, 30.0, 90.0, 30.0]], mark=Circle(110, 20, 10))
+    stored = one(beds, cap=leaving).annotation.cap
+    (part,) = stored.visible
+    assert (min(part[0::2]), max(part[0::2]), min(part[1::2]), max(part[1::2])) == (90, 100, 10, 30)
+    assert stored.mark == Circle(110, 20, 10)
+
+
 def test_every_field_of_a_cap_is_kept(beds, square):
     beds.write(
         lambda c: add_predictions(
