@@ -1,5 +1,6 @@
 """What a path is taken for: photos, COCO or labelme, as found or as said."""
 
+import gzip
 import json
 import shutil
 from pathlib import Path
@@ -75,3 +76,17 @@ def test_all_that_is_passed_over_in_a_folder_is_named(project, tmp_path, write_p
     }
     with pytest.raises(StoreError, match=r"Nothing was imported, as asked: .*\(8 more\)"):
         import_paths(project, [folder], strict=True)
+
+
+@pytest.mark.parametrize("by_folder", [True, False])
+def test_a_gzipped_file_of_labels_is_one_and_another_archive_is_refused(
+    beds, write_coco, square, tmp_path, by_folder
+):
+    folder = tmp_path / "zipped"
+    folder.mkdir()
+    zipped = folder / "labels.json.gz"
+    zipped.write_bytes(gzip.compress(write_coco([{"segmentation": square}]).read_bytes()))
+    assert import_paths(beds, [folder if by_folder else zipped]).annotations == 1
+    (tmp_path / "photos.tar.gz").write_bytes(b"")
+    with pytest.raises(StoreError, match="is an archive"):
+        import_paths(beds, [tmp_path / "photos.tar.gz"])
