@@ -87,7 +87,7 @@ def base_name(value: Any) -> str:
 
 def kept(extra: dict[str, Any], *, left_out: Callable[[str], None]) -> dict[str, Any]:
     """The unknown keys that can be written again; ``left_out`` hears of each of the others."""
-    if _is_writable(extra):
+    if not extra or _is_writable(extra):
         return extra
     good = {key: value for key, value in extra.items() if _is_writable({key: value})}
     for key in extra.keys() - good.keys():

@@ -101,7 +101,7 @@ def is_marked(entry: Entry) -> bool:
 
 def is_ignored(entry: Entry) -> bool:
     """Whether it counts neither way, in any of COCO's and our spellings."""
-    return True in [flag(entry.get(key), key) for key in IGNORED]
+    return True in [flag(entry.get(key), key) for key in IGNORED if key in entry]
 
 
 def is_crowd(entry: Entry) -> bool:
@@ -111,7 +111,7 @@ def is_crowd(entry: Entry) -> bool:
 
 def is_doubtful(entry: Entry) -> bool:
     """Whether somebody doubts it."""
-    return True in [flag(entry.get(key), key) for key in DOUBTFUL]
+    return True in [flag(entry.get(key), key) for key in DOUBTFUL if key in entry]
 
 
 def score_of(entry: Entry) -> float | None:

@@ -7,7 +7,7 @@ from typing import Any
 from msgspec import Struct
 
 from fairyring.model.coco.document import Document, objects_of
-from fairyring.model.coco.faults import Report, reported
+from fairyring.model.coco.faults import Report, Reported
 from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.json_values import ValueRefusedError, base_name, size
 
@@ -29,7 +29,7 @@ def read_images(document: Document, *, report: Report) -> dict[Id, ImageEntry]:
     """The images by id; of several with one id the first. ``report`` hears of those that make no sense."""
     images: dict[Id, ImageEntry] = {}
     for _, where, entry in objects_of("image", document.images or (), report=report):
-        with reported(where, report):
+        with Reported(where, report):
             image = _read(entry, where)
             if image.id in images:
                 raise ValueRefusedError("Another image has this id; only the first is taken.")
@@ -41,7 +41,7 @@ def by_base_name(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, I
     """The images by base file name; of several of one name the first. ``report`` hears of all others."""
     named: dict[str, ImageEntry] = {}
     for image in images.values():
-        with reported(image.where, report):
+        with Reported(image.where, report):
             name = base_name(image.keys.get("file_name"))
             if name in named:
                 raise ValueRefusedError(

@@ -9,7 +9,7 @@ import numpy as np
 
 from fairyring.model.coco.annotations import Entry, is_crowd, segmentation_of
 from fairyring.model.coco.document import Document, Item, annotations_by_image, value_of
-from fairyring.model.coco.faults import Fault, place_of, reported
+from fairyring.model.coco.faults import Fault, Reported, place_of
 from fairyring.model.coco.images import ImageEntry, read_images
 from fairyring.model.coco.visible import counts_in, outline_in
 from fairyring.model.coco.writing import rounded, shape_keys
@@ -101,7 +101,7 @@ def _answered(entries: list[Any], image: ImageEntry | None, method: str, priors:
 def _seen(annotation: Entry, *, width: int, height: int) -> tuple[Silhouette, str | None]:
     """The mask of an annotation, or nothing and the reason why."""
     faults: list[Fault] = []
-    with reported("", faults.append):
+    with Reported("", faults.append):
         return silhouette_of(annotation, width=width, height=height), None
     return NOTHING, faults[0].reason
 

@@ -11,7 +11,7 @@ from msgspec import structs
 
 from fairyring.model.coco.annotations import is_ignored, segmentation_of, shape_of
 from fairyring.model.coco.document import Document, annotations_by_image, objects_of
-from fairyring.model.coco.faults import Fault, reported
+from fairyring.model.coco.faults import Fault, Reported
 from fairyring.model.coco.images import read_images, size_of
 from fairyring.model.contour.coco import ContourError, silhouette_of
 from fairyring.model.contour.fitted_image import fitted_image
@@ -42,8 +42,9 @@ def estimate_priors(document: Document, *, source: str) -> Priors:
     groups = annotations_by_image(document)
     squares, stretches, sizes, rims, ripples = [], [], [], [], []
     for image in read_images(document, report=_stop).values():
-        with reported(image.where, _stop):
-            width, height = size_of(image)
+        with Reported(image.where, _stop):
+            size_of(image)
+        width, height = size_of(image)
         wholes = _checked_caps(document, groups.get(image.id, []), width=width, height=height)
         if not wholes:
             continue
@@ -73,7 +74,7 @@ def _checked_caps(
     """The whole outline, where it is given, of every cap of an image of which something is seen."""
     wholes: dict[Silhouette, Shape | None] = {}
     for _, where, entry in objects_of("annotation", document.annotations, indices=indices, report=_stop):
-        with reported(where, _stop):
+        with Reported(where, _stop):
             if is_ignored(entry) or segmentation_of(entry) is None:
                 continue
             cap, whole = silhouette_of(entry, width=width, height=height), shape_of(entry)

@@ -13,7 +13,7 @@ from typing import Literal, NoReturn
 from msgspec import Struct
 
 from fairyring.model.coco.document import Document, annotations_by_image, objects_of
-from fairyring.model.coco.faults import Fault, place_of, reported
+from fairyring.model.coco.faults import Fault, Reported, place_of
 from fairyring.model.coco.ids import Id
 from fairyring.model.coco.images import ImageEntry, by_base_name, read_images, size_of
 from fairyring.model.errors import FairyringError
@@ -93,7 +93,7 @@ def _images(document: Document) -> dict[str, ImageEntry] | None:
         return None
     images = by_base_name(read_images(document, report=_stop), report=_stop)
     for name, image in images.items():
-        with reported(f"{image.where}, {name}", _stop):
+        with Reported(f"{image.where}, {name}", _stop):
             size_of(image)
     return images
 
@@ -124,7 +124,7 @@ def _caps(
 ) -> list[CapRecord]:
     caps = []
     for _, where, entry in objects_of("annotation", document.annotations, indices=indices, report=_stop):
-        with reported(f"{where} of {page.file_name}", _stop):
+        with Reported(f"{where} of {page.file_name}", _stop):
             cap = cap_of(entry, width=page.width, height=page.height, masks=masks, centres=centres)
             caps.append(cap)
     ids = {cap.id for cap in caps}

@@ -42,8 +42,7 @@ def clipped_outline(outline: Outline, *, width: int, height: int) -> Outline:
 
 
 def _is_inside(part: list[float], width: int, height: int) -> bool:
-    xs, ys = part[0::2], part[1::2]
-    return min(xs) >= 0 and min(ys) >= 0 and max(xs) <= width and max(ys) <= height
+    return min(part) >= 0 and max(part[0::2]) <= width and max(part[1::2]) <= height
 
 
 def _pieces(part: list[float], width: int, height: int) -> list[Points]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fairyring.model.contour.ellipse import least_squares_ellipse
+from fairyring.model.geometry.clipping import clipped_outline
 from fairyring.model.geometry.mask_tracing import outline_of_mask
 from fairyring.model.geometry.shapes import Ellipse, Outline, part_of_points, points_of_part
 from fairyring.model.scene.caps import Box, Cap, polygon_of_cap
@@ -47,8 +48,13 @@ def _cap_as_seen(cap: Cap, part: Seen, owners: Owners, order: int) -> BedCap:
     whole = polygon_of_cap(cap)
     mask = (owners[window(part.box)] == part.layer.owner).astype(np.uint8)
     count = int(mask.sum())
+    height, width = owners.shape
+    all_in_sight = count == part.layer.area
     return BedCap(
-        visible=[whole] if count == part.layer.area else _moved(outline_of_mask(mask), part.box),
+        # Of a cap with every pixel in sight the outline may still end beyond the last pixel's middle.
+        visible=clipped_outline([whole], width=width, height=height)
+        if all_in_sight
+        else _moved(outline_of_mask(mask), part.box),
         whole=whole,
         ellipse=_fitted(whole),
         order=order,

@@ -26,7 +26,7 @@ from fairyring.model.coco.annotations import (
 )
 from fairyring.model.coco.categories import category_of, listed_categories, name_of_category
 from fairyring.model.coco.document import Document, objects_of, parse_document
-from fairyring.model.coco.faults import Fault, reported
+from fairyring.model.coco.faults import Fault, Reported
 from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.coco.images import ImageEntry, by_base_name, read_images
 from fairyring.model.geometry.shapes import Mark, Polygon
@@ -44,8 +44,8 @@ ANNOTATION_KEYS = {
     *("ignore", "ignored", "doubt", "doubtful", "order", "center", "circle", "ellipse", "mark", "marked"),
     *("segmentation_of", "occlude_rate", "refusal"),
 }
-DERIVED_KEYS = {"keypoints", "num_keypoints", "amodal_segmentation"}
-"""Written by our export from what else it writes; where others wrote them they are kept."""
+OWN_ANNOTATION_KEYS = ANNOTATION_KEYS | {"keypoints", "num_keypoints", "amodal_segmentation"}
+"""Of an annotation of our own export, which derives the last three; where others wrote them they are kept."""
 
 
 def parse_coco(data: bytes, *, file: str) -> Found:
@@ -77,7 +77,7 @@ def _images(document: Document, faults: list[Fault]) -> dict[Id, FoundImage]:
     images: dict[Id, FoundImage] = {}
     named = by_base_name(read_images(document, report=faults.append), report=faults.append)
     for name, entry in named.items():
-        with reported(entry.where, faults.append):
+        with Reported(entry.where, faults.append):
             images[entry.id] = _image(name, entry, licenses, faults)
     return images
 
@@ -119,7 +119,7 @@ def _caps(
         if image_id is None or image_id not in images:
             lost[image_id] += 1
             continue
-        with reported(where, faults.append):
+        with Reported(where, faults.append):
             caps[image_id].append(_cap(entry, where, category_of(entry, categories), faults))
     faults += [_lost(image_id, count) for image_id, count in lost.items()]
     faults += [
@@ -144,7 +144,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
     mark: Mark | None = (mark_of(entry) or shape) if marked else None
     if entry.get("segmentation_of") == "mark" and mark is not None:
         segmentation = None
-    extra = _others(entry, ANNOTATION_KEYS | (DERIVED_KEYS if "marked" in entry else set()))
+    extra = _others(entry, OWN_ANNOTATION_KEYS if "marked" in entry else ANNOTATION_KEYS)
     if isinstance(mark, Polygon) and shape is None:
         extra.pop("amodal_segmentation", None)
     return FoundCap(
@@ -197,7 +197,7 @@ def _other_keys_of_categories(
     """The unknown keys of each category, by its name."""
     others: dict[str, dict[str, Any]] = {}
     for own, entry in categories.items():
-        with reported(f"category {shown(own)}", faults.append):
+        with Reported(f"category {shown(own)}", faults.append):
             name = name_of_category(entry)
             others.setdefault(name, _kept(_others(entry, CATEGORY_KEYS), f"category {name}", faults))
     return others

@@ -50,7 +50,7 @@ def check_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[li
 def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     remarks: list[str] = []
     whole, centre = _checked_shape(found.whole, photo), _checked_centre(found.centre, photo)
-    cap = structs.replace(found.cap, visible=_visible(found, photo, whole, left_out=remarks.append))
+    cap = _with_outline(found, photo, whole, left_out=remarks.append)
     cap = check_cap(cap, width=photo.width, height=photo.height, left_out=remarks.append)
     if found.marked and cap.mark is None and centre is not None:
         cap = structs.replace(cap, mark=_mark_around(centre, cap.visible))
@@ -67,15 +67,16 @@ def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
     return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid, rle=None), remarks
 
 
-def _visible(
+def _with_outline(
     found: FoundCap, photo: Photo, whole: Shape | None, *, left_out: Callable[[str], object]
-) -> Outline:
-    """The visible outline; where a file gives only a worked-out whole outline, that one."""
+) -> Cap:
+    """The cap with its visible outline; where a file gives only a worked-out whole outline, with that one."""
     if found.rle is not None:
-        return outline_in(found.rle, width=photo.width, height=photo.height, left_out=left_out)
+        outline = outline_in(found.rle, width=photo.width, height=photo.height, left_out=left_out)
+        return structs.replace(found.cap, visible=outline)
     if found.cap.visible or found.cap.mark is not None or whole is None:
-        return found.cap.visible
-    return [polygon_of_shape(whole)]
+        return found.cap
+    return structs.replace(found.cap, visible=[polygon_of_shape(whole)])
 
 
 def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str]:
