@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.bench.browser.editor import editor_rows
 from fairyring.app.bench.browser.page import page_rows
+from fairyring.app.bench.fits import fit_rows
 from fairyring.app.bench.store import store_rows
 from fairyring.app.bench.timing import Row, p95_row, row
 from fairyring.app.commands.benchmarks import commands
@@ -24,7 +25,15 @@ HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", 
     ("measured", "targets"),
     [
         (store_rows, {"import": 5000, "a page of the list": 100, "open an image": 50, "server memory": 500}),
-        (editor_rows, {"edit: release": 50, "next image, 1280 × 720": 100, "any image, 4000 × 3000": 400}),
+        (
+            editor_rows,
+            {
+                "edit: release": 50,
+                "accept all 449: key to on disk": 1500,
+                "next image, 1280 × 720": 100,
+                "any image, 4000 × 3000": 400,
+            },
+        ),
         (page_rows, {"fairyring serve: typed to answering": 4}),
     ],
 )
@@ -35,6 +44,14 @@ def test_a_quick_run_gives_every_figure_beside_its_target(measured, targets):
     assert all(row["ratio"] > 0 for row in rows if row["reference"] is not None)
     for figure, target in targets.items():
         assert _named(rows, figure)["target"] == target
+
+
+def test_every_way_to_a_whole_outline_gives_the_same():
+    rows = fit_rows(quick=True)
+
+    assert _named(rows, "crowd.jpg, 60 caps: all accepted")["target"] == 1500
+    apart = [row for row in rows if row["unit"] == "px"]
+    assert [(row["value"], row["target"]) for row in apart] == [(0.0, 0.01)] * 3
 
 
 def test_the_95th_percentile_stands_beside_that_of_the_reference():
