@@ -47,19 +47,21 @@ def by_reading(reading: Reading) -> Method:
 
 
 def _by_ellipse(contour: Points, _area: float) -> Reconstruction:
-    whole = least_squares_ellipse(contour)
-    if whole is None:
-        return _found(enclosing_circle(contour), why="too few points for an ellipse; enclosing circle")
-    return _found(grown(whole, RIM_INSET), why="ellipse on the whole contour")
+    return _near(contour, least_squares_ellipse(contour), of="the whole contour")
 
 
 def _by_hull(contour: Points, _area: float) -> Reconstruction:
-    whole, around = hull_ellipse(contour), enclosing_circle(contour)
+    return _near(contour, hull_ellipse(contour), of="the convex hull of the contour")
+
+
+def _near(contour: Points, whole: Ellipse | None, *, of: str) -> Reconstruction:
+    """The ellipse, or the enclosing circle where there is none whose centre lies in that."""
+    around = enclosing_circle(contour)
     if whole is None:
-        return _found(around, why="too few corners for an ellipse; enclosing circle")
+        return _found(around, why="too few points for an ellipse; enclosing circle")
     if dist((whole.cx, whole.cy), (around.cx, around.cy)) > around.r:
         return _found(around, why="centre outside the enclosing circle; enclosing circle")
-    return _found(grown(whole, RIM_INSET), why="ellipse on the convex hull of the contour")
+    return _found(grown(whole, RIM_INSET), why=f"ellipse on {of}")
 
 
 def _by_enclosing_circle(contour: Points, _area: float) -> Reconstruction:
