@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from fairyring.app.commands.files import about
-from fairyring.app.commands.rows import AsJson
+from fairyring.app.commands.rows import AsJson, console_of_tables
 from fairyring.model.errors import FairyringError
 
 commands = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Measure predictions against truth.")
@@ -87,11 +87,10 @@ def _evaluated(
 
 
 def _print_masks(figures: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.markup import escape
     from rich.table import Table
 
-    console = Console()
+    console = console_of_tables()
     for names in (("AP", "AP50", "AP75", "AR", "P", "R"), ("S50", "S75", "S50_strict", "S50_small")):
         overall = Table(*names)
         overall.add_row(*(_shown(figures[name]) for name in names))
@@ -117,14 +116,13 @@ def _print_masks(figures: dict[str, Any]) -> None:
 
 
 def _print_centres(figures: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table("", "mean", "median", "p95", title="centres")
     for key, title in (("cdr", "CDR, %"), ("px", "pixels"), ("relative", "error / diameter")):
         spread = figures[key]
         table.add_row(title, *(_shown(spread[name]) for name in ("mean", "median", "p95")))
-    console = Console()
+    console = console_of_tables()
     console.print(table)
     bias = figures["bias_px"]
     shift = "" if bias is None else f", mean shift {bias[0]:+.3f}, {bias[1]:+.3f} px"
