@@ -18,11 +18,11 @@ export default {
         { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
         { "name": "pan", "keys": ["G"], "words": "Move the view", "label": "Pan" },
         { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn" },
-        { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done, then deselect" },
+        { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done (Ctrl+Z brings it back), then deselect" },
         {
           "name": "delete",
           "keys": ["Del", "Backspace"],
-          "words": "Delete the vertex under the pointer, else the selected caps; take back a point",
+          "words": "Delete the vertex under the pointer, else the selected caps",
           "label": "Delete"
         }
       ]
@@ -34,13 +34,14 @@ export default {
         { "name": "previous_cap", "keys": ["Shift+Tab"], "words": "Previous cap" },
         { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
         { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction" },
-        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions" },
-        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark, or clear the mark" },
+        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions that are shown" },
+        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark where there is none" },
+        { "name": "unmark", "keys": ["Shift+M"], "words": "Take the mark away" },
         { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
         { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree" },
         { "name": "ignored", "keys": ["I"], "words": "Ignored: counts neither way" },
-        { "name": "lower", "keys": ["["], "words": "Lower in the overlap order" },
-        { "name": "raise", "keys": ["]"], "words": "Higher in the overlap order" },
+        { "name": "lower", "keys": ["[", "Alt+↓"], "words": "Lower in the overlap order" },
+        { "name": "raise", "keys": ["]", "Alt+↑"], "words": "Higher in the overlap order" },
         { "name": "nudge_left", "keys": ["←"], "words": "Move by a quarter of a pixel" },
         { "name": "nudge_right", "keys": ["→"], "words": "Move by a quarter of a pixel" },
         { "name": "nudge_up", "keys": ["↑"], "words": "Move by a quarter of a pixel" },
@@ -49,7 +50,7 @@ export default {
         { "name": "push_right", "keys": ["Shift+→"], "words": "Move by a pixel" },
         { "name": "push_up", "keys": ["Shift+↑"], "words": "Move by a pixel" },
         { "name": "push_down", "keys": ["Shift+↓"], "words": "Move by a pixel" },
-        { "name": "undo", "keys": ["Ctrl+Z"], "words": "Undo" },
+        { "name": "undo", "keys": ["Ctrl+Z"], "words": "Undo; while drawing, the last point", "label": "Undo" },
         { "name": "redo", "keys": ["Ctrl+Shift+Z", "Ctrl+Y"], "words": "Redo" }
       ]
     },
@@ -63,6 +64,7 @@ export default {
         { "name": "zoom_selection", "keys": ["Z"], "words": "Zoom to the selection" },
         { "name": "zoom_in", "keys": ["+", "="], "words": "Zoom in" },
         { "name": "zoom_out", "keys": ["-"], "words": "Zoom out" },
+        { "name": "switch_focus", "keys": ["F6"], "words": "From the photo to the panel and back" },
         { "name": "help", "keys": ["?"], "words": "This list", "label": "All keys" }
       ]
     }

@@ -6,6 +6,7 @@
 
 import { same } from "./geometry/same.js";
 import { ACTIONS } from "./input/actions.js";
+import { bringFocusBack, switchFocus } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { Toolbox } from "./input/toolbox.js";
@@ -14,10 +15,13 @@ import { expose } from "./probe.js";
 import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
 import { EditorState } from "./state/editor_state.js";
+import { browserStorage } from "./sync/browser_storage.js";
+import { KeptDrawings } from "./sync/kept_drawings.js";
 import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
 import { openOutbox } from "./sync/tab_outbox.js";
 import { Transport } from "./sync/transport.js";
+import { imageInAddress, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
 import { keyList } from "./ui/help.js";
@@ -43,6 +47,7 @@ export class Editor {
   #transport;
   #sync;
   #liveFit;
+  #drawings;
   #opening;
   #frame;
   #say;
@@ -59,7 +64,7 @@ export class Editor {
     const send = (/** @type {ToServer} */ message) => this.#send(message);
     const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
     this.#transport = new Transport(url, {
-      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? null }),
+      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? imageInAddress() }),
       message: (message) => this.#receiveInOrder(message),
       state: () => this.#connectionChanged(),
       closed: (code, reason) => this.#closed(code, reason),
@@ -73,7 +78,7 @@ export class Editor {
     });
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
-      this.#toolbox.tool.sketch ?? (() => false),
+      ...this.#toolbox.sketches,
       this.#conflicts.sketch,
     ]);
     this.#say = noticesIn(host);
@@ -89,10 +94,15 @@ export class Editor {
       tool,
       caused: (event, kind) => this.#frame.causedBy(event, kind),
     });
-    this.#toolbox = new Toolbox(state, () => {
-      pressed();
-      pointer.cursor();
+    this.#toolbox = new Toolbox(state, {
+      changed: () => {
+        pressed();
+        pointer.letGo();
+        pointer.cursor();
+      },
+      say: (text) => this.#say(text),
     });
+    this.#drawings = new KeptDrawings(state.halfDrawn, { storage: browserStorage() });
     this.#opening = new Opening({
       state,
       toolbox: this.#toolbox,
@@ -100,9 +110,10 @@ export class Editor {
       liveFit: this.#liveFit,
       photos,
       frame: this.#frame,
+      drawings: this.#drawings,
       say: this.#say,
     });
-    this.#perform = this.#performer();
+    this.#perform = this.#performer(host);
     this.#listen(host, pointer);
     this.#progress();
     expose(host, {
@@ -119,23 +130,24 @@ export class Editor {
     this.#transport.offer(token);
   }
 
-  /** Carries out commands by name; false for one that nobody knows. @returns {(name: string) => boolean} */
-  #performer() {
+  /** Carries out commands by name; false for one that nobody knows, or that has nothing to do. @type {(host: HTMLElement) => (name: string) => boolean} */
+  #performer(host) {
     const context = {
       state: this.#state,
       tool: () => this.#toolbox.tool,
       use: (/** @type {string} */ name) => this.#toolbox.use(name),
+      finish: () => this.#toolbox.finish(),
       undo: () => this.#sync.undo(),
       redo: () => this.#sync.redo(),
       send: (/** @type {ToServer} */ message) => this.#send(message),
       toggle: (/** @type {string} */ layer) => this.#toggle(layer),
+      switchFocus: () => switchFocus(host),
       help: keyList(),
       say: (/** @type {string} */ text) => this.#say(text),
     };
     return (name) => {
       const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : null;
-      action?.(context);
-      return action !== null;
+      return action !== null && action(context) !== false;
     };
   }
 
@@ -153,13 +165,16 @@ export class Editor {
       use: (name) => this.#toolbox.use(name),
       open: (image, select) => this.#open(image, select),
     });
+    bringFocusBack(host);
+    keepPlace(state, (image) => this.#open(image, null));
     state.signals.selection.listen(() => this.#tellSelection());
     state.signals.nudge.listen(() => this.#progress());
     new ResizeObserver(([entry]) => state.viewport.resize(entry.contentRect)).observe(host);
     window.addEventListener("beforeunload", (event) => {
-      state.commitDrafts();
-      if (!this.#sync.kept) event.preventDefault();
+      this.#toolbox.leave();
+      if (!this.#sync.kept || !this.#drawings.kept) event.preventDefault();
     });
+    window.addEventListener("pagehide", () => this.#drawings.write());
   }
 
   /** @type {(message: ToServer) => boolean} */
@@ -261,6 +276,7 @@ export class Editor {
     this.#waiting = 0;
     if (this.#project !== project) {
       this.#project = project;
+      this.#drawings.use(project);
       this.#sync.use(await openOutbox(project));
     }
     this.#sync.resume();
@@ -274,14 +290,12 @@ export class Editor {
     const now = { ...layers.visible, ...visible };
     if (same(now, layers.visible)) return;
     layers.visible = now;
-    this.#frame.redraw();
   }
 
   /** @type {(layer: string) => void} */
   #toggle(layer) {
     const { layers } = this.#state;
     layers.visible = { ...layers.visible, [layer]: !layers.visible[layer] };
-    this.#frame.redraw();
     this.#transport.send({ type: "toggle", layer });
   }
 }

@@ -4,11 +4,14 @@
  * @module
  */
 
+import { putInAddress } from "./ui/address.js";
+
 /** @typedef {import("./input/toolbox.js").Toolbox} Toolbox */
 /** @typedef {import("./protocol.js").Show} Show */
 /** @typedef {import("./render/frame.js").Frame} Frame */
 /** @typedef {import("./render/photos.js").Photos} Photos */
 /** @typedef {import("./state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("./sync/kept_drawings.js").KeptDrawings} KeptDrawings */
 /** @typedef {import("./sync/live_fit.js").LiveFit} LiveFit */
 /** @typedef {import("./sync/sync.js").Sync} Sync */
 
@@ -20,8 +23,11 @@
  * @property {LiveFit} liveFit
  * @property {Photos} photos
  * @property {Frame} frame
- * @property {(text: string, level: "warning" | "error") => void} say
+ * @property {KeptDrawings} drawings
+ * @property {(text: string, level: "info" | "warning" | "error") => void} say
  */
+
+const HALF_DRAWN = "An outline is half drawn here: W goes on with it, Enter closes it.";
 
 export class Opening {
   /** When the person asked for the image that has not come yet. @type {number | null} */
@@ -42,23 +48,38 @@ export class Opening {
 
   /** The server sends an image, which may be a fresh copy of the same. @type {(message: Show) => void} */
   show({ contents, photo, select, ahead }) {
-    const { state, toolbox, sync, liveFit, photos, frame, say } = this.#parts;
+    const { state, sync, liveFit, photos, frame, say } = this.#parts;
     const asked = this.#asked ?? performance.now();
     this.#asked = null;
     const { image } = contents;
-    if (image.id !== state.image?.id) {
-      toolbox.tool.cancel();
-      state.commitDrafts();
-      frame.blank();
-    }
+    const another = image.id !== state.image?.id;
+    if (another) this.#leave();
     liveFit.forget();
     sync.open(image.id, contents.annotations);
     state.open(contents);
     if (select) state.select([select], { reveal: true });
+    if (another) this.#arrive(image.id);
     photos
       .open(photo, image)
       .then(() => frame.whenComplete(() => this.#drawn(asked, ahead)))
       .catch((error) => say(error.message, "error"));
+  }
+
+  /** What is half done on the image on screen is finished or kept. */
+  #leave() {
+    const { state, toolbox, frame, drawings, say } = this.#parts;
+    const name = state.image?.file_name;
+    toolbox.leave();
+    if (drawings.leave() && name) say(`The outline stays half drawn on ${name}.`, "info");
+    frame.blank();
+  }
+
+  /** What was half drawn on the image is there again. @type {(image: number) => void} */
+  #arrive(image) {
+    putInAddress(image);
+    void this.#parts.drawings.open(image).then((drawn) => {
+      if (drawn) this.#parts.say(HALF_DRAWN, "info");
+    });
   }
 
   /** @type {(asked: number, ahead: string[]) => void} */

@@ -54,6 +54,22 @@ export function nearestHandle(cap, point, reach) {
 }
 
 /**
+ * The handle of a circle that is drawn at a point, within `reach`: its centre, or one of the four on its rim.
+ *
+ * @param {Circle} circle
+ * @param {Point} point
+ * @param {number} reach
+ * @returns {Handle | null}
+ */
+export function shownHandle(circle, [x, y], reach) {
+  // On a small circle the handles would leave no place to press beside them.
+  const near = Math.min(reach, circle.r / 2);
+  if (Math.hypot(circle.cx - x, circle.cy - y) <= near) return { kind: "centre" };
+  const rim = Math.min(...rimPoints(circle).map(([px, py]) => Math.hypot(px - x, py - y)));
+  return rim <= near ? { kind: "rim" } : null;
+}
+
+/**
  * The cap after a handle was moved by (dx, dy) from `from`.
  *
  * @param {Cap} cap

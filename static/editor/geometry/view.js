@@ -5,7 +5,7 @@
  * @module
  */
 
-import { grown } from "./bounds.js";
+import { grown, joinedAll, overlap } from "./bounds.js";
 
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("./bounds.js").Bounds} Bounds */
@@ -13,6 +13,10 @@ import { grown } from "./bounds.js";
 /** @typedef {{width: number, height: number}} Size */
 
 export const LARGEST_SCALE = 64;
+/** One step towards a cap zooms in no further than this: the eye would lose where it is. */
+const LARGEST_JUMP = 6;
+/** What is smaller on screen, CSS pixels, is too small to work on. */
+const WORKABLE_PX = 24;
 
 /** @type {(view: View, x: number, y: number) => Point} */
 export function toScreen(view, x, y) {
@@ -57,17 +61,26 @@ export function viewOf(bounds, size, margin) {
     width: Math.max(size.width - 2 * margin, 16),
     height: Math.max(size.height - 2 * margin, 16),
   };
-  const scale = Math.min(room.width / width, room.height / height, LARGEST_SCALE);
-  return {
-    scale,
-    x: (size.width - (bounds.x0 + bounds.x1) * scale) / 2,
-    y: (size.height - (bounds.y0 + bounds.y1) * scale) / 2,
-  };
+  return centredOn(bounds, size, Math.min(room.width / width, room.height / height, LARGEST_SCALE));
+}
+
+/**
+ * The view that shows `bounds` large, as far as one step may zoom in; the next step goes on.
+ *
+ * @param {View} view
+ * @param {Bounds} bounds
+ * @param {Size} size
+ * @returns {View}
+ */
+export function closeUp(view, bounds, size) {
+  const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
+  const { scale } = viewOf(grown(bounds, reach / 2), size, 40);
+  return centredOn(bounds, size, Math.min(scale, view.scale * LARGEST_JUMP));
 }
 
 /**
  * Moves as little as possible so that `bounds` is on screen; zooms only where it does not fit or would be
- * too small to work on.
+ * too small to work on, and then in no further than that takes.
  *
  * @param {View} view
  * @param {Bounds} bounds
@@ -76,15 +89,38 @@ export function viewOf(bounds, size, margin) {
  */
 export function revealing(view, bounds, size) {
   const margin = 40;
+  const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
   const width = (bounds.x1 - bounds.x0) * view.scale;
   const height = (bounds.y1 - bounds.y0) * view.scale;
   const fits = width <= size.width - 2 * margin && height <= size.height - 2 * margin;
-  if (!fits || Math.max(width, height) < 24) {
-    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    return viewOf(grown(bounds, reach), size, margin);
+  if (!fits) return viewOf(grown(bounds, reach / 4), size, margin);
+  if (reach * view.scale < WORKABLE_PX) {
+    const scale = Math.min((2 * WORKABLE_PX) / Math.max(reach, 1e-6), view.scale * LARGEST_JUMP);
+    return centredOn(bounds, size, Math.min(scale, LARGEST_SCALE));
   }
   const [left, top] = toScreen(view, bounds.x0, bounds.y0);
   return panned(view, shift(left, width, size.width, margin), shift(top, height, size.height, margin));
+}
+
+/**
+ * The same view where any of the rectangles is on screen; else one that shows all of them, zoomed out where
+ * that is needed and never in.
+ *
+ * @param {View} view
+ * @param {Bounds[]} all
+ * @param {Size} size
+ * @returns {View}
+ */
+export function glimpsing(view, all, size) {
+  const shown = visibleBounds(view, size);
+  const bounds = joinedAll(all);
+  if (!bounds || all.some((each) => overlap(each, shown))) return view;
+  return centredOn(bounds, size, Math.min(view.scale, viewOf(bounds, size, 40).scale));
+}
+
+/** @type {(bounds: Bounds, size: Size, scale: number) => View} */
+function centredOn({ x0, y0, x1, y1 }, { width, height }, scale) {
+  return { scale, x: (width - (x0 + x1) * scale) / 2, y: (height - (y0 + y1) * scale) / 2 };
 }
 
 /** @type {(start: number, length: number, room: number, margin: number) => number} */

@@ -22,27 +22,33 @@ import { commandOfLayer } from "./keys.js";
  * @property {EditorState} state
  * @property {() => Tool} tool
  * @property {(name: string) => void} use  takes up a tool
+ * @property {() => void} finish  closes the outline that is half drawn
  * @property {() => Change[] | null} undo  null where there is nothing to undo
  * @property {() => Change[] | null} redo
  * @property {(message: ToServer) => boolean} send
  * @property {(layer: string) => void} toggle  shows or hides a layer
+ * @property {() => void} switchFocus  from the photo to the panel, and back
  * @property {() => void} help
  * @property {(text: string) => void} say
  */
 
-/** @typedef {(context: Context) => void} Action */
+/** @typedef {(context: Context) => unknown} Action  false where there was nothing to do, and the key is the browser's */
+
+const MARKED = "What is selected is marked already; Shift+M takes marks away.";
+const HALF_DRAWN = "An outline is still half drawn on this image: Enter closes it, W and Esc drop it.";
 
 /** @type {Record<string, Action>} */
 export const ACTIONS = {
-  undo: (context) => travel(context, context.undo, "There is nothing to undo on this image."),
-  redo: (context) => travel(context, context.redo, "There is nothing to redo."),
+  undo: (context) =>
+    context.tool().undo?.() || travel(context, context.undo, "There is nothing to undo on this image."),
+  redo: (context) => context.tool().redo?.() || travel(context, context.redo, "There is nothing to redo."),
   fit: ({ state }) => state.viewport.showAll(),
   zoom_selection: ({ state }) =>
     state.selection.uids.size ? state.reveal({ close: true }) : state.viewport.showAll(),
   zoom_in: ({ state }) => zoom(state, 1.25),
   zoom_out: ({ state }) => zoom(state, 0.8),
   delete: ({ state, tool }) => tool().back?.() || deleteSelected(state),
-  finish: ({ tool }) => tool().finish?.(),
+  finish: ({ finish }) => finish(),
   cancel,
   accept: ({ state }) => acceptSelected(state),
   accept_all: ({ state }) => acceptAll(state),
@@ -50,16 +56,17 @@ export const ACTIONS = {
   ignored: ({ state }) => flag(state, "ignored"),
   raise: ({ state }) => reorder(state, 1),
   lower: ({ state }) => reorder(state, -1),
-  mark: ({ state }) =>
-    changeSelected(state, (cap) => ({ ...cap, mark: cap.mark ? null : outlineAsMark(cap) })),
+  mark: markSelected,
+  unmark: ({ state }) => changeSelected(state, (cap) => (cap.mark ? { ...cap, mark: null } : null)),
   convert: ({ state }) => changeSelected(state, converted),
   next_cap: ({ state }) => cycle(state, 1),
   previous_cap: ({ state }) => cycle(state, -1),
   select_all: ({ state }) =>
-    state.select(state.items.all.filter((shape) => !isPrediction(shape)).map(({ uid }) => uid)),
+    state.select(state.visible.filter((shape) => !isPrediction(shape)).map(({ uid }) => uid)),
   next_image: (context) => step(context, 1),
   previous_image: (context) => step(context, -1),
   done: finishImage,
+  switch_focus: ({ switchFocus }) => switchFocus(),
   help: ({ help }) => help(),
   select: ({ use }) => use("select"),
   polygon: ({ use }) => use("polygon"),
@@ -86,7 +93,8 @@ function travel({ state, say }, move, nothing) {
   if (!changes) return say(nothing);
   const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
   const known = uids.filter((uid) => state.items.get(uid));
-  state.select(known.length <= 20 ? known : [], { reveal: true });
+  state.select(known.length <= 20 ? known : []);
+  state.glimpse();
 }
 
 /** @type {(state: EditorState, factor: number) => void} */
@@ -109,11 +117,18 @@ function openAgain(before) {
   return before && before.cap.prediction !== null ? [uidOfPrediction(before.cap.prediction)] : [];
 }
 
-/** @type {Action} */
+/** @type {(context: Context) => void} */
 function cancel({ state, tool, use }) {
   if (tool().cancel()) return;
   if (state.selection.uids.size) state.select([]);
   else use("select");
+}
+
+/** Gives a mark to those that have none; a mark that somebody placed is taken away by another key. @type {(context: Context) => void} */
+function markSelected({ state, say }) {
+  const { selected } = state;
+  if (selected.length && selected.every(({ cap }) => cap.mark)) say(MARKED);
+  changeSelected(state, (cap) => (cap.mark ? null : { ...cap, mark: outlineAsMark(cap) }));
 }
 
 /** All on unless all are on already. @type {(state: EditorState, name: "doubtful" | "ignored") => void} */
@@ -150,15 +165,16 @@ function converted(cap, { whole }) {
   return whole && { ...cap, mark: circleOfWhole(whole) };
 }
 
-/** To the next cap in reading order. @type {(state: EditorState, by: number) => void} */
+/** To the next cap in reading order; from the last one the key leads on into the page. @type {(state: EditorState, by: number) => boolean} */
 function cycle(state, by) {
   const order = state.visible
     .map((shape) => ({ uid: shape.uid, key: readingKey(shape) }))
     .sort((a, b) => a.key - b.key);
-  if (order.length === 0) return;
   const here = order.findIndex(({ uid }) => state.selection.has(uid));
-  const start = here < 0 && by < 0 ? 0 : here;
-  state.select([order[(start + by + order.length) % order.length].uid], { reveal: true });
+  const next = order.at(here < 0 && by < 0 ? -1 : here + by);
+  if (!next || here + by >= order.length || (here === 0 && by < 0)) return false;
+  state.select([next.uid], { reveal: true });
+  return true;
 }
 
 /** Rows of 64 pixels, each from left to right. @type {(shape: Shape) => number} */
@@ -167,9 +183,10 @@ function readingKey({ cap }) {
   return Math.floor((bounds.y0 + bounds.y1) / 128) * 1e6 + bounds.x0 + bounds.x1;
 }
 
-/** @type {Action} */
-function finishImage({ state, send }) {
+/** @type {(context: Context) => void} */
+function finishImage({ state, send, say }) {
   if (!state.image) return;
+  if (!state.halfDrawn.empty) return say(HALF_DRAWN);
   state.commitDrafts();
   send({ type: "status", image: state.image.id, status: "annotated" });
   send({ type: "step", by: 1 });

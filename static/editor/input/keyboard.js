@@ -4,7 +4,8 @@
  * @module
  */
 
-import { commandOf, heldBy, isTyping } from "./keys.js";
+import { isForThePage } from "./focus.js";
+import { commandOf, heldBy } from "./keys.js";
 
 /**
  * @typedef {Object} Parts  of the editor that keys reach
@@ -16,8 +17,7 @@ import { commandOf, heldBy, isTyping } from "./keys.js";
 
 /** @type {(parts: Parts) => void} */
 export function listenToKeys({ perform, state, pointer, pressed }) {
-  const held = (/** @type {KeyboardEvent} */ event, /** @type {boolean} */ down) => {
-    const what = heldBy(event);
+  const hold = (/** @type {string | null} */ what, /** @type {boolean} */ down) => {
     if (what === "pan") pointer.panKey = down;
     else if (what === "hide") state.layers.allHidden = down;
     else return false;
@@ -25,30 +25,34 @@ export function listenToKeys({ perform, state, pointer, pressed }) {
     state.signals.overlay.emit();
     return true;
   };
-  const listen = (
-    /** @type {"keydown" | "keyup"} */ type,
-    /** @type {(event: KeyboardEvent) => boolean} */ hear,
-  ) => {
-    window.addEventListener(
-      type,
-      (event) => {
-        if (isTyping(event) || !hear(event)) return;
-        event.preventDefault();
-        event.stopImmediatePropagation();
-      },
-      { capture: true },
-    );
-  };
-  listen("keydown", (event) => {
-    if (held(event, true)) return true;
+  const down = (/** @type {KeyboardEvent} */ event) => {
+    if (isForThePage(event)) return false;
+    if (hold(heldBy(event), true)) return true;
     const command = commandOf(event);
     if (!command) return false;
     pressed(event.timeStamp);
     return perform(command);
-  });
-  listen("keyup", (event) => held(event, false));
+  };
+  // A key is let go wherever the focus has gone meanwhile, and whatever else is pressed.
+  const up = (/** @type {KeyboardEvent} */ { key, code, shiftKey }) =>
+    hold(heldBy({ key, code, shiftKey, ctrlKey: false, metaKey: false, altKey: false }), false);
+  listen("keydown", down);
+  listen("keyup", up);
   window.addEventListener("blur", () => {
     pointer.panKey = state.layers.allHidden = false;
     state.signals.overlay.emit();
   });
+}
+
+/** @type {(type: "keydown" | "keyup", hear: (event: KeyboardEvent) => boolean) => void} */
+function listen(type, hear) {
+  window.addEventListener(
+    type,
+    (event) => {
+      if (!hear(event)) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+    },
+    { capture: true },
+  );
 }

@@ -40,23 +40,34 @@ export function commandOfLayer(layer) {
 
 /** @typedef {Pick<KeyboardEvent, "key" | "code" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">} Chord */
 
-/** @type {(chord: Chord) => string | null} */
+/**
+ * The command of the character that is typed; where that is none's, of the one that stands there on a US
+ * keyboard.
+ *
+ * @type {(chord: Chord) => string | null}
+ */
 export function commandOf(chord) {
-  return COMMANDS.get(nameOf(chord)) ?? null;
+  const typed = COMMANDS.get(nameOf(chord, chord.key));
+  if (typed) return typed;
+  const engraved = engravedOn(chord);
+  return (engraved && COMMANDS.get(nameOf(chord, engraved))) ?? null;
 }
 
 /** What happens as long as the key is held: "pan", "hide" or nothing. @type {(chord: Chord) => string | null} */
 export function heldBy(chord) {
   const { ctrlKey, metaKey, altKey } = chord;
-  return ctrlKey || metaKey || altKey ? null : (HELD.get(shortened(latin(chord))) ?? null);
+  if (ctrlKey || metaKey || altKey) return null;
+  return HELD.get(shortened(chord.key)) ?? HELD.get(shortened(engravedOn(chord) ?? "")) ?? null;
 }
 
-/** The chord as it stands in the key list, in small letters. @type {(chord: Chord) => string} */
-function nameOf(chord) {
-  const key = shortened(latin(chord));
+/** The chord as it stands in the key list, in small letters. @type {(chord: Chord, typed: string) => string} */
+function nameOf(chord, typed) {
+  const key = shortened(typed);
   const named = key.length > 1 || /[a-z←→↑↓]/.test(key);
-  const ctrl = chord.ctrlKey || chord.metaKey ? "ctrl+" : "";
-  const alt = chord.altKey ? "alt+" : "";
+  // AltGr, which some keyboards need for a bracket, is told as Ctrl and Alt, or as Alt.
+  const signByAlt = !named && !/\d/.test(key) && chord.altKey;
+  const ctrl = (chord.ctrlKey && !signByAlt) || chord.metaKey ? "ctrl+" : "";
+  const alt = chord.altKey && !signByAlt ? "alt+" : "";
   // Whether a "?" takes Shift depends on the keyboard; a letter or an arrow with Shift is another chord.
   return `${ctrl}${alt}${chord.shiftKey && named ? "shift+" : ""}${key}`;
 }
@@ -67,32 +78,21 @@ function shortened(key) {
   return SHORT[small] ?? small;
 }
 
-/**
- * The letter engraved on a Latin keyboard where the layout types another script.
- *
- * @type {(chord: Chord) => string}
- */
-function latin({ key, code }) {
-  const foreign = key.length === 1 && key.charCodeAt(0) > 127;
-  return foreign && code.startsWith("Key") ? code.slice(3) : key;
-}
+/** What stands on keys of a US keyboard that are neither letters nor digits. @type {Record<string, string>} */
+const SIGNS = { BracketLeft: "[", BracketRight: "]", Minus: "-", Equal: "=" };
 
 /**
- * Whether the key belongs to what has the focus rather than to the editor.
+ * What is engraved on the key of a US keyboard at this place; null where the character that was typed is a
+ * Latin letter or a digit, which means itself.
  *
- * @param {KeyboardEvent} event
- * @returns {boolean}
+ * @type {(chord: Chord) => string | null}
  */
-export function isTyping(event) {
-  const target = event.target instanceof Element ? event.target : null;
-  if (!target) return false;
-  if (
-    target.closest(
-      "input, textarea, select, [contenteditable=''], [contenteditable=true], [role=dialog], dialog",
-    )
-  )
-    return true;
-  const walks =
-    event.key.startsWith("Arrow") || event.key === "Tab" || event.key === " " || event.key === "Enter";
-  return walks && target !== document.body && target.closest("#fairyring-editor") === null;
+function engravedOn({ key, code, shiftKey }) {
+  // A dead key and a method of input name no character at all.
+  if (/^[a-z0-9]$/i.test(key) || (key.length > 1 && !["Dead", "Process", "Unidentified"].includes(key)))
+    return null;
+  const [, letter] = /^Key([A-Z])$/.exec(code) ?? [];
+  if (letter) return letter;
+  const [, digit] = /^Digit(\d)$/.exec(code) ?? [];
+  return shiftKey ? null : (digit ?? SIGNS[code] ?? null);
 }

@@ -24,6 +24,8 @@ export class Pointer {
   panKey = false;
   #panning = false;
   #pressed = false;
+  /** The tools that were in hand at the last presses; a double click is one tool's. @type {Tool[]} */
+  #pressedWith = [];
   #rawAt = 0;
   #host;
   #state;
@@ -48,7 +50,7 @@ export class Pointer {
     host.addEventListener("pointerup", (event) => this.#up(event));
     host.addEventListener("pointercancel", () => this.#cancel());
     host.addEventListener("pointerleave", () => state.selection.hover(null));
-    host.addEventListener("dblclick", (event) => this.#tool().double?.(this.#press(event)));
+    host.addEventListener("dblclick", (event) => this.#double(event));
     host.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     host.addEventListener("contextmenu", (event) => event.preventDefault());
   }
@@ -63,13 +65,14 @@ export class Pointer {
 
   /** @type {(event: PointerEvent) => void} */
   #down(event) {
-    if (event.target instanceof Element && event.target.closest("[data-fairyring-chrome]")) return;
+    if (isChrome(event)) return;
     this.#host.focus({ preventScroll: true });
     this.#host.setPointerCapture(event.pointerId);
     const press = this.#press(event);
     if (event.button !== 0 || this.panKey) this.#panning = true;
     else {
       this.#pressed = true;
+      this.#pressedWith = [...this.#pressedWith.slice(-1), this.#tool()];
       this.#tool().down(press);
     }
     event.preventDefault();
@@ -97,9 +100,20 @@ export class Pointer {
     this.#caused(event.timeStamp, "drag");
   }
 
+  /** The first click of two may have ended the work of one tool and the second have begun another's. @type {(event: MouseEvent) => void} */
+  #double(event) {
+    if (isChrome(event)) return;
+    const tool = this.#tool();
+    if (this.#pressedWith.every((other) => other === tool)) tool.double?.(this.#press(event));
+  }
+
   /** @type {(event: PointerEvent) => void} */
   #move(event) {
-    if (this.#pressed && !this.#panning) this.#drag(event);
+    // The release was not heard, as the pointer was outside the window.
+    if (this.#pressed && event.buttons === 0) {
+      this.#drag(event);
+      this.#up(event);
+    } else if (this.#pressed && !this.#panning) this.#drag(event);
     else this.#wander(event);
     this.cursor();
   }
@@ -120,7 +134,7 @@ export class Pointer {
   /** @type {(event: PointerEvent) => void} */
   #up(event) {
     const press = this.#press(event);
-    if (this.#pressed && event.button === 0) {
+    if (this.#pressed && event.button <= 0) {
       this.#pressed = false;
       this.#tool().up(press);
       this.#caused(event.timeStamp, "release");
@@ -130,13 +144,18 @@ export class Pointer {
   }
 
   #cancel() {
-    if (this.#pressed) this.#tool().cancel();
+    if (this.#pressed) this.#tool().leave();
+    this.letGo();
+  }
+
+  /** Another tool or image has come: what is pressed drags nothing of it. */
+  letGo() {
     this.#pressed = this.#panning = false;
   }
 
   /** @type {(event: WheelEvent) => void} */
   #wheel(event) {
-    if (event.target instanceof Element && event.target.closest("[data-fairyring-chrome]")) return;
+    if (isChrome(event)) return;
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
     const speed = event.ctrlKey ? 6 * WHEEL_SPEED : WHEEL_SPEED;
@@ -149,4 +168,9 @@ export class Pointer {
     const cursor = this.#panning ? "grabbing" : this.panKey ? "grab" : this.#tool().cursor;
     if (this.#host.style.cursor !== cursor) this.#host.style.cursor = cursor;
   }
+}
+
+/** Whether an event belongs to what lies over the photo. @type {(event: Event) => boolean} */
+function isChrome({ target }) {
+  return target instanceof Element && target.closest("[data-fairyring-chrome]") !== null;
 }

@@ -12,6 +12,7 @@ import { isPrediction, reachOf } from "../geometry/shapes.js";
 import { spacedVertices } from "../geometry/vertices.js";
 import { toScreen } from "../geometry/view.js";
 import { drawArcs, drawUncertainty, reachOfFit } from "./arcs.js";
+import { hatch } from "./hatching.js";
 import { CASING, COLOURS, FILLS } from "./palette.js";
 import { strokeCased, traceCross, traceRing, traceWhole } from "./paths.js";
 import { SmallCanvas } from "./small_canvas.js";
@@ -105,6 +106,7 @@ function drawHovered(context, view, shape) {
 function drawLifted(context, shape, { viewport, selection, drafts, layers, explanation }) {
   const { view } = viewport;
   const explained = selection.has(shape.uid) && layers.visible.whole ? explanation : null;
+  if (shape.cap.ignored) hatch(context, view, [shape]);
   drawVisible(context, view, shape, { filled: layers.visible.fill, changed: drafts.has(shape.uid) });
   if (explained) drawArcs(context, view, explained);
   drawMark(context, view, shape);

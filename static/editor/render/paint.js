@@ -8,8 +8,9 @@
 import { grown, overlap } from "../geometry/bounds.js";
 import { isPrediction, reachOf } from "../geometry/shapes.js";
 import { toScreen } from "../geometry/view.js";
+import { hatch } from "./hatching.js";
 import { CASING, COLOURS, FILLS, SHADE } from "./palette.js";
-import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole } from "./paths.js";
+import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCentred } from "./paths.js";
 
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
@@ -84,8 +85,9 @@ function styleOf(shape, selected) {
 /** @type {(context: Context, view: View, shapes: Shape[], how: {style: Style, visible: Visible, fine: boolean}) => void} */
 function paintGroup(context, view, shapes, { style, visible, fine }) {
   const large = shapes.filter((shape) => sizeOf(shape, view) >= SMALL_PX);
-  if (style === "ignored") hatchShapes(context, view, shapes);
-  else if (visible.fill || style === "selected") fillShapes(context, view, shapes, FILLS[style]);
+  const ignored = shapes.filter(({ cap }) => cap.ignored);
+  hatch(context, view, ignored);
+  if (style === "selected" || (style !== "ignored" && visible.fill)) fillShapes(context, view, shapes, FILLS[style]);
   if (visible.whole && style !== "ignored") strokeWholes(context, view, large);
   if (visible.outline || style === "prediction") strokeOutlines(context, view, shapes, style, fine);
   if (visible.whole && style !== "ignored") strokeMarks(context, view, large);
@@ -115,23 +117,6 @@ function fillShapes(context, view, shapes, fill) {
     traceVisible(context, view, shape);
     context.fill();
   }
-}
-
-/** @type {(context: Context, view: View, shapes: Shape[]) => void} */
-function hatchShapes(context, view, shapes) {
-  if (shapes.length === 0) return;
-  const tile = new OffscreenCanvas(6, 6);
-  const lines = tile.getContext("2d");
-  if (!lines) return;
-  lines.strokeStyle = FILLS.ignored;
-  lines.lineWidth = 1.5;
-  for (const offset of [-6, 0, 6]) {
-    lines.moveTo(offset - 1, 7);
-    lines.lineTo(offset + 7, -1);
-  }
-  lines.stroke();
-  const pattern = context.createPattern(tile, "repeat");
-  if (pattern) fillShapes(context, view, shapes, pattern);
 }
 
 /** @type {(context: Context, view: View, shapes: Shape[], style: Style, fine: boolean) => void} */
@@ -188,14 +173,7 @@ function writeLabel(context, view, shape, text) {
   const bounds = reachOf(shape);
   if (!bounds || (sizeOf(shape, view) < LABEL_PX && !shape.cap.doubtful)) return;
   const [x, y] = toScreen(view, (bounds.x0 + bounds.x1) / 2, bounds.y0);
-  context.font = "600 11px system-ui, sans-serif";
-  context.textAlign = "center";
-  context.textBaseline = "top";
-  context.lineWidth = 3;
-  context.strokeStyle = "rgba(8, 12, 20, 0.8)";
-  context.strokeText(text, x, y + 3);
-  context.fillStyle = "#ffffff";
-  context.fillText(text, x, y + 3);
+  writeCentred(context, text, x, y + 3);
 }
 
 /** @type {(shape: Shape) => string} */

@@ -8,9 +8,10 @@
 import { joinedAll } from "../geometry/bounds.js";
 import { placedWhole } from "../geometry/caps.js";
 import { pick, within } from "../geometry/hit.js";
-import { boundsOf, isPrediction, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
+import { boundsOf, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
 import { changed } from "./changes.js";
 import { Drafts } from "./drafts.js";
+import { HalfDrawn } from "./half_drawn.js";
 import { Items } from "./items.js";
 import { Layers } from "./layers.js";
 import { Selection } from "./selection.js";
@@ -34,6 +35,7 @@ export class EditorState {
   items = new Items(this.store);
   selection = new Selection();
   drafts = new Drafts();
+  halfDrawn = new HalfDrawn();
   layers = new Layers();
   viewport = new Viewport(() => this.signals.overlay.emit());
   /** What the server said last about an outline. @type {Fitted | null} */
@@ -61,6 +63,8 @@ export class EditorState {
     this.#commit = commit;
     this.store.changed.listen((changes) => this.#storeChanged(changes));
     this.selection.pointed.listen(() => this.signals.overlay.emit());
+    this.halfDrawn.changed.listen(() => this.signals.overlay.emit());
+    this.layers.changed.listen(() => this.#layersChanged());
     this.selection.changed.listen((before, after) => {
       this.signals.shapes.emit([...before, ...after].flatMap((uid) => this.items.get(uid) ?? []));
       this.signals.selection.emit();
@@ -75,9 +79,23 @@ export class EditorState {
     this.selection.keep((uid) => this.items.get(uid) !== null);
   }
 
-  /** The selected shapes, as they look while being changed. */
+  /** What is not seen any more is not acted on either. */
+  #layersChanged() {
+    this.commitDrafts();
+    this.selection.hover(null);
+    this.selection.keep((uid) => this.#isShown(uid));
+    this.signals.picture.emit();
+  }
+
+  /** @type {(uid: string) => boolean} */
+  #isShown(uid) {
+    const shape = this.items.get(uid);
+    return shape !== null && this.layers.show(shape);
+  }
+
+  /** The selected shapes, as they look while being changed; none while all are hidden. */
   get selected() {
-    return [...this.selection.uids].flatMap((uid) => this.shape(uid) ?? []);
+    return this.layers.allHidden ? [] : [...this.selection.uids].flatMap((uid) => this.shape(uid) ?? []);
   }
 
   /** The one selected shape. @returns {Shape | null} */
@@ -115,7 +133,7 @@ export class EditorState {
 
   /** @type {(shapes: Shape[]) => Shape[]} */
   #visibleOf(shapes) {
-    return this.layers.visible.prediction ? shapes : shapes.filter((shape) => !isPrediction(shape));
+    return this.layers.allHidden ? [] : shapes.filter((shape) => this.layers.show(shape));
   }
 
   /**
@@ -167,19 +185,30 @@ export class EditorState {
   }
 
   /**
+   * Selects those of these items that are shown.
+   *
    * @param {string[]} uids
    * @param {{reveal?: boolean}} [how]
    */
   select(uids, { reveal = false } = {}) {
     this.commitDrafts();
-    this.selection.set(uids);
+    this.selection.set(uids.filter((uid) => this.#isShown(uid)));
     if (reveal) this.reveal();
   }
 
   /** Brings the selection into view. @param {{close?: boolean}} [how] */
   reveal({ close = false } = {}) {
-    const bounds = joinedAll(this.selected.flatMap((shape) => boundsOf(shape) ?? []));
+    const bounds = joinedAll(this.#boundsOfSelected());
     if (bounds) this.viewport.reveal(bounds, { close });
+  }
+
+  /** Brings the selection into view where nothing of it is, without zooming in. */
+  glimpse() {
+    this.viewport.glimpse(this.#boundsOfSelected());
+  }
+
+  #boundsOfSelected() {
+    return this.selected.flatMap((shape) => boundsOf(shape) ?? []);
   }
 
   /**
@@ -221,6 +250,7 @@ export class EditorState {
    * @param {Change[]} changes
    */
   commit(changes) {
+    if (changes.length && this.halfDrawn.empty) this.halfDrawn.begin([]);
     this.#commit(changes);
     /** @type {Map<string, string>} */
     const heirs = new Map();

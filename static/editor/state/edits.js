@@ -33,6 +33,7 @@ export function changeSelected(state, change) {
 export function deleteSelected(state) {
   state.commitDrafts();
   const shapes = state.selected;
+  if (shapes.length === 0) return;
   state.select([]);
   state.commit(shapes.map((shape) => changed(shape, { ...shape, deleted: true })));
 }
@@ -43,10 +44,10 @@ export function acceptSelected(state) {
   accept(state, state.selected);
 }
 
-/** Makes annotations of all open predictions. @type {(state: EditorState) => void} */
+/** Makes annotations of all open predictions that are shown. @type {(state: EditorState) => void} */
 export function acceptAll(state) {
   state.commitDrafts();
-  accept(state, state.items.all);
+  accept(state, state.visible);
 }
 
 /** @type {(state: EditorState, shapes: Shape[]) => void} */

@@ -5,6 +5,7 @@
  */
 
 import { inverse } from "./changes.js";
+import { untouched } from "./untouched.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./changes.js").Change} Change */
@@ -15,10 +16,10 @@ export class History {
   /** @type {Change[][]} */
   #undone = [];
 
-  /** @type {(changes: Change[]) => void} */
+  /** Something new was done; what was taken back of other caps can still be done again. @type {(changes: Change[]) => void} */
   push(changes) {
     this.#done.push(changes);
-    this.#undone = [];
+    this.#undone = untouched(this.#undone, (set) => set, changes);
   }
 
   /**

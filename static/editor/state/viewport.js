@@ -4,23 +4,43 @@
  * @module
  */
 
-import { grown } from "../geometry/bounds.js";
-import { viewOf, onDevicePixels, panned, revealing, zoomed } from "../geometry/view.js";
+import { contains } from "../geometry/bounds.js";
+import {
+  closeUp,
+  glimpsing,
+  onDevicePixels,
+  panned,
+  revealing,
+  toImage,
+  toScreen,
+  viewOf,
+  visibleBounds,
+  zoomed,
+} from "../geometry/view.js";
 
 /** @typedef {import("../protocol.js").Image} Image */
+/** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {import("../geometry/view.js").View} View */
+
+/**
+ * What is looked at, whatever the size of the window: null for the whole photo, else the point in the middle.
+ *
+ * @typedef {{middle: Point, scale: number} | null} Look
+ */
 
 export class Viewport {
   /** @type {View} */
   view = { scale: 1, x: 0, y: 0 };
   /** CSS pixels. @type {Size} */
   size = { width: 0, height: 0 };
+  /** The whole photo is shown, and stays so in a window of another size. */
+  #showsAll = true;
   /** @type {Image | null} */
   #image = null;
-  /** How images were left, by id. @type {Map<number, View>} */
-  #views = new Map();
+  /** How images were left, by id. @type {Map<number, Look>} */
+  #looks = new Map();
   #moved;
 
   /** @param {() => void} moved  another part of the photo is to be seen */
@@ -28,27 +48,50 @@ export class Viewport {
     this.#moved = moved;
   }
 
+  /** @returns {Look} */
+  get look() {
+    if (this.#showsAll) return null;
+    const { width, height } = this.size;
+    return { middle: toImage(this.view, width / 2, height / 2), scale: this.view.scale };
+  }
+
+  /** How an image is to be found when it is opened for the first time. @type {(image: number, look: Look) => void} */
+  expect(image, look) {
+    this.#looks.set(image, look);
+  }
+
   /** Shows an image, which may be the same one anew. @type {(image: Image) => void} */
   open(image) {
-    const same = this.#image?.id === image.id;
-    if (this.#image && !same) this.#views.set(this.#image.id, this.view);
+    if (this.#image?.id === image.id) return;
+    if (this.#image) this.#looks.set(this.#image.id, this.look);
     this.#image = image;
-    const known = this.#views.get(image.id);
-    if (!same && known) this.#show(known);
-    else if (!same) this.showAll();
+    this.#lookAt(this.#looks.get(image.id) ?? null);
   }
 
-  /** What was in the middle stays there. @type {(size: Size) => void} */
+  /** What was in the middle stays there, and a photo that was wholly on screen stays so. @type {(size: Size) => void} */
   resize({ width, height }) {
-    const first = this.size.width === 0;
-    const [dx, dy] = [(width - this.size.width) / 2, (height - this.size.height) / 2];
+    const { look } = this;
+    const whole = this.#isWholeOnScreen();
     this.size = { width, height };
-    if (first) this.showAll();
-    else this.panBy(dx, dy);
+    this.#lookAt(look);
+    if (whole && !this.#isWholeOnScreen()) this.showAll();
   }
 
-  /** @type {(view: View) => void} */
-  #show(view) {
+  #isWholeOnScreen() {
+    return contains(visibleBounds(this.view, this.size), this.#bounds);
+  }
+
+  /** @type {(look: Look) => void} */
+  #lookAt(look) {
+    if (!look) return this.showAll();
+    const { middle, scale } = look;
+    const [x, y] = toScreen({ scale, x: 0, y: 0 }, ...middle);
+    this.#show({ scale, x: this.size.width / 2 - x, y: this.size.height / 2 - y });
+  }
+
+  /** @type {(view: View, how?: {all: boolean}) => void} */
+  #show(view, { all } = { all: false }) {
+    this.#showsAll = all;
     this.view = onDevicePixels(view, globalThis.devicePixelRatio ?? 1);
     this.#moved();
   }
@@ -65,19 +108,32 @@ export class Viewport {
 
   /** Shows the whole photo. */
   showAll() {
-    this.#show(this.#viewOfAll());
+    this.#show(this.#viewOfAll(), { all: true });
   }
 
   #viewOfAll() {
+    return viewOf(this.#bounds, this.size, 12);
+  }
+
+  /** Of the photo. @returns {Bounds} */
+  get #bounds() {
     const { width, height } = this.#image ?? { width: 1, height: 1 };
-    return viewOf({ x0: 0, y0: 0, x1: width, y1: height }, this.size, 12);
+    return { x0: 0, y0: 0, x1: width, y1: height };
   }
 
   /** Brings a part of the photo into view. @type {(bounds: Bounds, how: {close: boolean}) => void} */
   reveal(bounds, { close }) {
-    const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-    this.#show(
-      close ? viewOf(grown(bounds, reach / 2), this.size, 40) : revealing(this.view, bounds, this.size),
-    );
+    this.#change(close ? closeUp(this.view, bounds, this.size) : revealing(this.view, bounds, this.size));
+  }
+
+  /** Brings parts of the photo into view where none of them is; never zooms in. @type {(all: Bounds[]) => void} */
+  glimpse(all) {
+    this.#change(glimpsing(this.view, all, this.size));
+  }
+
+  /** Where nothing moves, a whole photo stays whole. @type {(view: View) => void} */
+  #change(view) {
+    const { scale, x, y } = this.view;
+    if (view.scale !== scale || view.x !== x || view.y !== y) this.#show(view);
   }
 }

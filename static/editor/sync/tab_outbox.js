@@ -6,8 +6,10 @@
  */
 
 import { newId } from "../ids.js";
+import { browserStorage } from "./browser_storage.js";
 import { Outbox } from "./outbox.js";
 import { keysWith } from "./stored_edits.js";
+import { lock } from "./tab_lock.js";
 
 const ROOT = "fairyring:outbox:";
 
@@ -25,15 +27,6 @@ export async function openOutbox(project) {
   return outbox;
 }
 
-/** @type {() => Storage | null} */
-function browserStorage() {
-  try {
-    return window.localStorage;
-  } catch {
-    return null;
-  }
-}
-
 /**
  * A name that survives a reload of this tab. A duplicated tab finds the lock on its copy taken and makes
  * a name of its own.
@@ -48,23 +41,6 @@ async function ownName(root) {
   sessionStorage.setItem(root, name);
   await lock(`${root}${name}:`);
   return name;
-}
-
-/**
- * Takes a lock for as long as the page lives. Where the browser has no locks every tab counts as alone:
- * an edit that two tabs send is stored once all the same.
- *
- * @param {string} name
- * @returns {Promise<boolean>}
- */
-function lock(name) {
-  if (!navigator.locks) return Promise.resolve(true);
-  return new Promise((resolve) => {
-    void navigator.locks.request(name, { ifAvailable: true }, (taken) => {
-      resolve(taken !== null);
-      return taken && new Promise(() => {});
-    });
-  });
 }
 
 /** @type {(prefix: string) => Promise<boolean>} */

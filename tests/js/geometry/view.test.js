@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { viewOf, revealing, toImage, zoomed } from "../../../static/editor/geometry/view.js";
+import { closeUp, glimpsing, revealing, toImage, viewOf, zoomed } from "../../../static/editor/geometry/view.js";
 import { chances } from "../support/chances.js";
 
 const SIZE = { width: 1016, height: 850 };
@@ -47,9 +47,43 @@ for (const [where, bounds, x, y] of /** @type {const} */ ([
   });
 }
 
-test("revealing zooms in on a cap too small to work on", () => {
-  const view = revealing({ scale: 0.5, x: 0, y: 0 }, { x0: 100, y0: 100, x1: 106, y1: 106 }, SIZE);
-  assert.ok(view.scale * 6 > 200);
-  const middle = 103 * view.scale + view.x;
-  assert.ok(middle > 0 && middle < 1016);
+/** @type {(view: import("../../../static/editor/geometry/view.js").View) => number[]} */
+const inTheMiddle = (view) => toImage(view, SIZE.width / 2, SIZE.height / 2);
+
+test("revealing makes a cap that is too small to work on just large enough, in the middle", () => {
+  const view = revealing({ scale: 2, x: 0, y: 0 }, { x0: 100, y0: 100, x1: 106, y1: 104 }, SIZE);
+  assert.deepEqual([view.scale, inTheMiddle(view)], [8, [103, 102]]);
+});
+
+test("no step towards a cap zooms in more than six times, however small the cap; the next goes on", () => {
+  const tiny = { x0: 100, y0: 100, x1: 102, y1: 102 };
+  const first = closeUp(AT_HOME, tiny, SIZE);
+  assert.deepEqual([first.scale, inTheMiddle(first)], [6, [101, 101]]);
+  assert.equal(closeUp(first, tiny, SIZE).scale, 36);
+  assert.equal(revealing({ scale: 0.25, x: 0, y: 0 }, tiny, SIZE).scale, 1.5);
+});
+
+test("a close-up of a large cap fills the window, and zooms out as far as that takes", () => {
+  const large = { x0: 0, y0: 0, x1: 400, y1: 400 };
+  const { scale } = closeUp({ scale: 30, x: 0, y: 0 }, large, SIZE);
+  assert.equal(scale, (SIZE.height - 80) / 800);
+});
+
+test("a glimpse of what is on screen, be it in part, moves nothing", () => {
+  const here = { x0: -30, y0: 10, x1: 5, y1: 30 };
+  const elsewhere = { x0: 9000, y0: 0, x1: 9010, y1: 10 };
+  assert.equal(glimpsing(AT_HOME, [elsewhere, here], SIZE), AT_HOME);
+  assert.equal(glimpsing(AT_HOME, [], SIZE), AT_HOME);
+});
+
+test("a glimpse of what is elsewhere goes there without zooming in", () => {
+  const view = glimpsing({ scale: 3, x: 0, y: 0 }, [{ x0: 9000, y0: 0, x1: 9010, y1: 10 }], SIZE);
+  assert.deepEqual([view.scale, inTheMiddle(view)], [3, [9005, 5]]);
+});
+
+test("a glimpse of more than fits zooms out", () => {
+  const far = { x0: 9000, y0: 0, x1: 9010, y1: 10 };
+  const farther = { x0: 9000, y0: 5000, x1: 9010, y1: 5010 };
+  const { scale } = glimpsing(AT_HOME, [far, farther], SIZE);
+  assert.equal(scale, (SIZE.height - 80) / 5010);
 });

@@ -8,7 +8,7 @@ import { shapeOfAnnotation } from "../../../static/editor/geometry/shapes.js";
 /** @typedef {import("../../../static/editor/state/changes.js").Change} Change */
 
 /** @type {Image} */
-const IMAGE = {
+export const IMAGE = {
   id: 1,
   file_name: "bed.png",
   path: "bed.png",

@@ -1,19 +1,20 @@
 /**
- * Drags a circle out from its centre: the mark of the selected cap when the press is inside it, else a
- * new cap of which nothing but the circle is known.
+ * Drags a circle out from its centre: the mark of the selected cap where it lies around what is seen of that,
+ * else a new cap of which nothing but the circle is known. Which of the two it will be is written beside it.
  *
  * @module
  */
 
-import { hundredths, insideCap, newCap, placedWhole } from "../../geometry/caps.js";
-import { SMALLEST_RADIUS, movedHandle, nearestHandle } from "../../geometry/handles.js";
+import { hundredths, newCap, placedWhole } from "../../geometry/caps.js";
+import { SMALLEST_RADIUS, movedHandle, shownHandle } from "../../geometry/handles.js";
+import { isMarkOf } from "../../geometry/marks.js";
 import { newShape, withCap } from "../../geometry/shapes.js";
 import { toScreen } from "../../geometry/view.js";
 import { newId } from "../../ids.js";
 import { CASING, COLOURS, FILLS } from "../../render/palette.js";
-import { strokeCased, traceCross, traceWhole } from "../../render/paths.js";
+import { strokeCased, traceCross, traceWhole, writeCentred } from "../../render/paths.js";
 import { changed } from "../../state/changes.js";
-import { CLICK_PX, GRAB_PX, apart } from "./tool.js";
+import { CLICK_PX, apart } from "./tool.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
@@ -21,6 +22,9 @@ import { CLICK_PX, GRAB_PX, apart } from "./tool.js";
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
+
+/** A press beside a handle, and not on it, begins another circle: of a bud that touches this one. */
+const HANDLE_PX = 5;
 
 /** @implements {Tool} */
 export class CircleTool {
@@ -50,9 +54,9 @@ export class CircleTool {
   /** @type {(press: Press) => {shape: Shape, handle: Handle} | null} */
   #handleAt(press) {
     const { sole: shape, viewport } = this.#state;
-    if (!shape || placedWhole(shape.cap)?.kind !== "circle") return null;
-    const bare = { ...shape.cap, visible: [] };
-    const handle = nearestHandle(bare, press.image, GRAB_PX / viewport.view.scale);
+    const placed = shape && placedWhole(shape.cap);
+    if (!shape || placed?.kind !== "circle") return null;
+    const handle = shownHandle(placed, press.image, HANDLE_PX / viewport.view.scale);
     return handle && { shape, handle };
   }
 
@@ -82,26 +86,39 @@ export class CircleTool {
 
   /** @type {(press: Press) => void} */
   up(press) {
-    if (this.#grip) this.#state.commitDrafts();
-    else if (this.#circle) this.#place(this.#circle);
-    else {
-      const item = this.#state.at(press.image, 0);
-      this.#state.select(item ? [item.uid] : []);
-    }
-    this.#start = this.#circle = this.#grip = null;
+    if (!this.#start) return;
+    if (this.#grip || this.#circle) return this.leave();
+    this.#start = null;
+    const item = this.#state.at(press.image, 0);
+    this.#state.select(item ? [item.uid] : []);
   }
 
   /** @type {(circle: Circle) => void} */
   #place(circle) {
     const state = this.#state;
-    const { sole } = state;
-    if (sole && insideCap(sole.cap, circle.cx, circle.cy)) {
-      state.commit([changed(sole, withCap(sole, { ...sole.cap, mark: circle }))]);
+    const marked = this.#markedBy(circle);
+    if (marked) {
+      state.commit([changed(marked, withCap(marked, { ...marked.cap, mark: circle }))]);
       return;
     }
     const after = newShape(newId(), newCap({ mark: circle }));
     state.commit([{ before: null, after }]);
     state.select([after.uid]);
+  }
+
+  /** The selected cap, where the circle is its mark. @type {(circle: Circle) => Shape | null} */
+  #markedBy(circle) {
+    const { sole } = this.#state;
+    return sole && isMarkOf(circle, sole.cap) ? sole : null;
+  }
+
+  /** Ends the drag as letting go would. */
+  leave() {
+    const circle = this.#circle;
+    this.#start = this.#circle = this.#grip = null;
+    this.#state.commitDrafts();
+    if (circle) this.#place(circle);
+    this.#state.signals.overlay.emit();
   }
 
   cancel() {
@@ -110,6 +127,17 @@ export class CircleTool {
     this.#state.withdraw();
     this.#state.signals.overlay.emit();
     return busy;
+  }
+
+  /** While the pointer is pressed, what it drags is all that is taken back. */
+  undo() {
+    const pressed = this.#start !== null;
+    if (pressed) this.cancel();
+    return pressed;
+  }
+
+  redo() {
+    return this.#start !== null;
   }
 
   /** @type {import("../../render/overlay.js").Sketch} */
@@ -122,6 +150,8 @@ export class CircleTool {
     context.fill();
     traceCross(context, ...toScreen(view, circle.cx, circle.cy), 6);
     strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
+    const [x, y] = toScreen(view, circle.cx, circle.cy + circle.r);
+    writeCentred(context, this.#markedBy(circle) ? "mark of the selected cap" : "new cap", x, y + 6);
     return true;
   };
 }

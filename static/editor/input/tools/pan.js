@@ -21,5 +21,6 @@ export function panTool({ viewport }) {
     },
     up() {},
     cancel: () => false,
+    leave() {},
   };
 }

@@ -10,6 +10,7 @@ import { HANDLE_GAP_PX, handlesAreApart, movedHandle, nearestHandle } from "../.
 import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
 import { insertedVertices, nearestEdges, removedVertices } from "../../geometry/vertices.js";
+import { toImage } from "../../geometry/view.js";
 import { changed } from "../../state/changes.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 
@@ -22,6 +23,8 @@ import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 
 /** How far along the outline, in CSS pixels, a dragged vertex pulls its neighbours. */
 const PULL_PX = 16;
+/** So near to where a vertex was taken out, CSS pixels, Delete still means vertices and never the cap. */
+const STILL_HERE_PX = 30;
 
 /**
  * What the press has taken hold of.
@@ -45,18 +48,29 @@ export class SelectTool {
   #last = [0, 0];
   /** @type {Handle | null} */
   #under = null;
+  /** Where a vertex was taken out, and of which cap, while the pointer is still about there. @type {{at: Point, uid: string} | null} */
+  #removed = null;
+  /** @type {Point} */
+  #at = [0, 0];
   /** A handle that was dragged stays active for the arrow keys until another is pointed at. */
   #keepsActive = false;
   #state;
+  #say;
 
-  /** @param {EditorState} state */
-  constructor(state) {
+  /**
+   * @param {EditorState} state
+   * @param {(text: string) => void} say
+   */
+  constructor(state, say) {
     this.#state = state;
+    this.#say = say;
   }
 
   /** @type {(press: Press) => void} */
   hover(press) {
     const state = this.#state;
+    this.#at = press.screen;
+    if (this.#removed && apart(this.#removed.at, press.screen) > STILL_HERE_PX) this.#removed = null;
     const { selection, sole } = state;
     const handle = sole && this.#handleAt(sole, press);
     this.#under = handle;
@@ -96,6 +110,7 @@ export class SelectTool {
   /** @type {(press: Press) => void} */
   down(press) {
     this.#state.commitDrafts();
+    this.#at = press.screen;
     this.#start = press;
     this.#last = press.screen;
     this.#moved = false;
@@ -124,6 +139,7 @@ export class SelectTool {
     const start = this.#start;
     const grip = this.#grip;
     if (!start || !grip) return;
+    this.#at = press.screen;
     if (!this.#moved && apart(press.screen, start.screen) < (grip.kind === "handle" ? 1 : CLICK_PX)) return;
     this.#moved = true;
     this.#state.selection.hover(null);
@@ -195,11 +211,19 @@ export class SelectTool {
     return { x0: Math.min(x, to[0]), y0: Math.min(y, to[1]), x1: Math.max(x, to[0]), y1: Math.max(y, to[1]) };
   }
 
-  /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
+  /**
+   * Takes the vertex under the pointer out, where it can be told from its neighbours. Pressed once more at the
+   * same place it takes out what is there now, and never the cap.
+   */
   back() {
     const { sole } = this.#state;
-    const apart = sole !== null && handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX));
-    return apart && this.#removeVertex(this.#under);
+    if (this.#grip) return true;
+    if (!sole) return false;
+    const apart = handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX));
+    if (apart && this.#removeVertex(this.#under)) return true;
+    if (this.#removed?.uid !== sole.uid) return false;
+    this.#say("A point was taken out here. To delete the cap, move the pointer away first.");
+    return true;
   }
 
   /** @type {(handle: Handle | null) => boolean} */
@@ -207,9 +231,13 @@ export class SelectTool {
     const { selection, sole } = this.#state;
     if (!sole || handle?.kind !== "vertex") return false;
     const cap = removedVertices(sole.cap, handle.vertices);
-    this.#under = null;
     selection.activate(null);
     if (cap) this.#state.commit([changed(sole, { ...sole, cap })]);
+    else this.#say("An outline needs three points. To delete the cap, move the pointer away first.");
+    const { sole: now, viewport } = this.#state;
+    this.#removed = now && { at: this.#at, uid: now.uid };
+    const here = toImage(viewport.view, ...this.#at);
+    this.#under = now && nearestHandle(now.cap, here, this.#pixels(GRAB_PX));
     return true;
   }
 
@@ -218,11 +246,29 @@ export class SelectTool {
     if (this.#state.at(press.image, 0)) this.#state.reveal({ close: true });
   }
 
+  /** Ends the drag as letting go would. */
+  leave() {
+    this.#grip = this.#removed = null;
+    this.#state.commitDrafts();
+  }
+
   cancel() {
     const busy = this.#grip !== null && this.#moved;
     this.#grip = null;
     this.#state.withdraw();
+    this.#state.signals.overlay.emit();
     return busy;
+  }
+
+  /** While the pointer is pressed, what it drags is all that is taken back. */
+  undo() {
+    const pressed = this.#grip !== null;
+    if (pressed) this.cancel();
+    return pressed;
+  }
+
+  redo() {
+    return this.#grip !== null;
   }
 
   /** @type {import("../../render/overlay.js").Sketch} */

@@ -24,6 +24,9 @@
  * @property {(press: Press) => void} up
  * @property {(press: Press) => void} [double]
  * @property {() => boolean} cancel  drops what is half done; false when there was nothing
+ * @property {() => void} leave  something else comes: what is half done is finished or kept, and never dropped
+ * @property {() => boolean} [undo]  takes back the last step of what is half done; false where that is nothing
+ * @property {() => boolean} [redo]  does it again; false where nothing is half done
  * @property {() => boolean} [finish]  Enter
  * @property {() => boolean} [back]  Backspace or Delete
  * @property {import("../../render/overlay.js").Sketch} [sketch]

@@ -1,0 +1,105 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+
+import { SelectTool } from "../../../../static/editor/input/tools/select.js";
+import { deleteSelected } from "../../../../static/editor/state/edits.js";
+import { capOf, prediction } from "../../support/caps.js";
+import { handOf } from "../../support/hand.js";
+import { openState, storedShape } from "../../support/state.js";
+
+/** @typedef {import("../../../../static/editor/protocol.js").Point} Point */
+
+const HEXAGON = [100, 50, 150, 100, 150, 160, 100, 210, 50, 160, 50, 100];
+const TRIANGLE = [100, 50, 150, 160, 50, 160];
+
+/** @type {(visible?: number[], extra?: Parameters<typeof openState>[0]) => any} */
+function selecting(visible = HEXAGON, extra = {}) {
+  const { state, committed } = openState({ shapes: [storedShape("u", capOf(visible))], ...extra });
+  /** @type {string[]} */
+  const said = [];
+  const tool = new SelectTool(state, (text) => void said.push(text));
+  const hand = handOf(state, tool);
+  state.select(["u"]);
+  /** What the key does: the tool is asked first. */
+  const del = () => tool.back() || deleteSelected(state);
+  const points = () => (state.items.get("u")?.cap.visible[0].length ?? 0) / 2;
+  return { state, committed, said, tool, hand, del, points };
+}
+
+test("Delete over a vertex takes it out, and pressed again at the same place never deletes the cap", () => {
+  const { hand, del, points, said } = selecting();
+  hand.hover([150, 100]);
+  for (let i = 0; i < 4; i++) del();
+  assert.deepEqual([points(), said.length], [5, 3]);
+});
+
+test("nor does it after Alt and a click, after a twitch, or where the outline has no vertex to spare", () => {
+  const { hand, del, points } = selecting();
+  hand.hover([150, 100]);
+  hand.click([150, 100], { alt: true });
+  del();
+  hand.hover([155, 104]);
+  del();
+  assert.equal(points(), 5);
+  const triangle = selecting(TRIANGLE);
+  triangle.hand.hover([100, 50]);
+  for (let i = 0; i < 3; i++) triangle.del();
+  assert.equal(triangle.points(), 3);
+});
+
+test("vertices that come under the pointer one after the other are taken out one after the other", () => {
+  const { hand, del, points } = selecting();
+  hand.hover([150, 100]);
+  del();
+  hand.hover([150, 160]);
+  del();
+  del();
+  assert.equal(points(), 4);
+});
+
+test("once the pointer has moved away, or another cap is selected, Delete deletes the cap", () => {
+  const { state, hand, del } = selecting();
+  hand.hover([150, 100]);
+  del();
+  hand.hover([300, 300]);
+  del();
+  assert.equal(state.items.get("u"), null);
+  const two = selecting(HEXAGON, {
+    shapes: [storedShape("u", capOf(HEXAGON)), storedShape("v", capOf(TRIANGLE.map((value) => value + 300)))],
+  });
+  two.hand.hover([150, 100]);
+  two.del();
+  two.state.select(["v"]);
+  two.del();
+  assert.deepEqual([two.state.items.get("v"), two.points()], [null, 5]);
+});
+
+test("a vertex taken out of a prediction makes an annotation of it, which a second Delete leaves alone", () => {
+  const { state, hand, del } = selecting(HEXAGON, { predictions: [prediction(1, [HEXAGON])], shapes: [] });
+  state.select(["prediction:1"]);
+  hand.hover([150, 100]);
+  del();
+  del();
+  assert.deepEqual(
+    state.items.all.map((/** @type {any} */ shape) => [shape.cap.prediction, shape.cap.visible[0].length / 2]),
+    [[1, 5]],
+  );
+});
+
+test("undo while a vertex is dragged lets go of it; a tool that is taken up leaves it where it is", () => {
+  const { state, committed, tool, hand } = selecting();
+  hand.down([150, 100]);
+  hand.drag([180, 100]);
+  assert.deepEqual([tool.undo(), state.drafts.all.length], [true, 0]);
+  hand.drag([190, 100]);
+  hand.up([190, 100]);
+  assert.deepEqual(committed, []);
+  hand.down([150, 100]);
+  hand.drag([180, 100]);
+  tool.leave();
+  assert.deepEqual(
+    committed.flat().map((/** @type {any} */ { after }) => after.cap.visible[0].slice(2, 4)),
+    [[180, 100]],
+  );
+  assert.equal(tool.undo(), false);
+});
