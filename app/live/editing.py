@@ -10,6 +10,7 @@ import anyio.to_thread
 
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.caps.whole_outlines import derive_edits, refit
+from fairyring.app.live.repairs import repairs_told
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Changed, Outcomes, Refit
@@ -28,6 +29,8 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
         accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
         session.take_in(accepted)
         session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
+        if told := await anyio.to_thread.run_sync(repairs_told, edits, outcomes):
+            session.notify(told)
     finally:
         session.storing = set()
     for image_id in {annotation.image for annotation in accepted}:

@@ -98,7 +98,8 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         ("Edited", _last_edit(annotation, background.entries)),
     ]
     title = element("strong", f"Cap {annotation.uid[:8]}", title=annotation.uid)
-    return _inspector(title, *flags, facts=facts, commands=("mark", "doubtful", "ignored", "delete"))
+    marking = "mark" if cap.mark is None else "unmark"
+    return _inspector(title, *flags, facts=facts, commands=(marking, "doubtful", "ignored", "delete"))
 
 
 def _error_facts(pair: Pair | None) -> Facts:
