@@ -21,7 +21,7 @@ import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
 import { openOutbox } from "./sync/tab_outbox.js";
 import { Transport } from "./sync/transport.js";
-import { imageInAddress, keepPlace } from "./ui/address.js";
+import { firstImage, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
 import { keyList } from "./ui/help.js";
@@ -64,7 +64,7 @@ export class Editor {
     const send = (/** @type {ToServer} */ message) => this.#send(message);
     const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
     this.#transport = new Transport(url, {
-      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? imageInAddress() }),
+      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? firstImage() }),
       message: (message) => this.#receiveInOrder(message),
       state: () => this.#connectionChanged(),
       closed: (code, reason) => this.#closed(code, reason),

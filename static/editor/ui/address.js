@@ -11,15 +11,26 @@
 const ADDRESS = /^#\/image\/(\d+)$/;
 const PLACE = "fairyring:place";
 
-/** The image in the page's address. @returns {number | null} */
-export function imageInAddress() {
-  const [, image] = ADDRESS.exec(window.location.hash) ?? [];
+/** @type {(hash: string) => number | null} */
+function imageIn(hash) {
+  const [, image] = ADDRESS.exec(hash) ?? [];
   return image === undefined ? null : Number(image);
+}
+
+/**
+ * The image that the page was opened with: the one in its address (laid aside by `viser/start.js`), else the
+ * last one in this tab.
+ *
+ * @returns {number | null}
+ */
+export function firstImage() {
+  const address = Reflect.get(globalThis, "__fairyringAddress") || window.location.hash;
+  return imageIn(address) ?? remembered()?.image ?? null;
 }
 
 /** Puts an image into the address; the one before can be gone back to. @type {(image: number) => void} */
 export function putInAddress(image) {
-  const here = imageInAddress();
+  const here = imageIn(window.location.hash);
   if (here === image) return;
   const address = `#/image/${image}`;
   if (here === null) window.history.replaceState(null, "", address);
@@ -36,7 +47,7 @@ export function putInAddress(image) {
 export function keepPlace(state, open) {
   // Back and Forward tell of a new hash as well as an address that is typed.
   window.addEventListener("hashchange", () => {
-    const image = imageInAddress();
+    const image = imageIn(window.location.hash);
     if (image !== null) open(image);
   });
   window.addEventListener("pagehide", () => {
