@@ -77,10 +77,7 @@ export class Editor {
       refused: (reason) => this.#say(reason, "error"),
     });
     const photos = new Photos(() => this.#frame.redrawPhoto());
-    this.#frame = new Frame(host, state, photos, () => [
-      ...this.#toolbox.sketches,
-      this.#conflicts.sketch,
-    ]);
+    this.#frame = new Frame(host, state, photos, () => [...this.#toolbox.sketches, this.#conflicts.sketch]);
     this.#say = noticesIn(host);
     this.#status = statusIn(host);
     this.#liveFit = new LiveFit(state, { send, told: captionIn(host) });
@@ -130,7 +127,11 @@ export class Editor {
     this.#transport.offer(token);
   }
 
-  /** Carries out commands by name; false for one that nobody knows, or that has nothing to do. @type {(host: HTMLElement) => (name: string) => boolean} */
+  /**
+   * Carries out commands by name; false for one that nobody knows, or that has nothing to do.
+   *
+   * @type {(host: HTMLElement) => (name: string) => boolean}
+   */
   #performer(host) {
     const context = {
       state: this.#state,

@@ -12,5 +12,7 @@ const { hash, pathname, search } = window.location;
 globalThis.__fairyringAddress = hash;
 if (hash) window.history.replaceState(null, "", pathname + search);
 
-globalThis.__viserZstdWasm = await WebAssembly.compileStreaming(fetch(new URL("./zstd.wasm", import.meta.url)));
+globalThis.__viserZstdWasm = await WebAssembly.compileStreaming(
+  fetch(new URL("./zstd.wasm", import.meta.url)),
+);
 await import("./client.js");

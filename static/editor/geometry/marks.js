@@ -40,7 +40,11 @@ export function isMarkOf(circle, cap) {
   return reach >= LEAST_REACH * circle.r && shareInside(cap.visible, circle) >= LEAST_SHARE;
 }
 
-/** Whether one circle is the other placed better: about where it is, and about as large. @type {(circle: Circle, placed: Whole) => boolean} */
+/**
+ * Whether one circle is the other placed better: about where it is, and about as large.
+ *
+ * @type {(circle: Circle, placed: Whole) => boolean}
+ */
 function alike({ cx, cy, r }, placed) {
   const { a, b } = axesOf(placed);
   const radius = Math.sqrt(a * b);
@@ -48,7 +52,11 @@ function alike({ cx, cy, r }, placed) {
   return Math.min(r, radius) >= ALIKE * Math.max(r, radius) && apart <= ALIKE * Math.min(r, radius);
 }
 
-/** The share of an outline's area that lies in a whole one, by samples. @type {(visible: Outline, whole: Whole) => number} */
+/**
+ * The share of an outline's area that lies in a whole one, by samples.
+ *
+ * @type {(visible: Outline, whole: Whole) => number}
+ */
 export function shareInside(visible, whole) {
   const all = visible.reduce((sum, ring) => sum + areaOfRing(ring), 0);
   const inside = visible.reduce((sum, ring) => {

@@ -124,7 +124,11 @@ function cancel({ state, tool, use }) {
   else use("select");
 }
 
-/** Gives a mark to those that have none; a mark that somebody placed is taken away by another key. @type {(context: Context) => void} */
+/**
+ * Gives a mark to those that have none; a mark that somebody placed is taken away by another key.
+ *
+ * @type {(context: Context) => void}
+ */
 function markSelected({ state, say }) {
   const { selected } = state;
   if (selected.length && selected.every(({ cap }) => cap.mark)) say(MARKED);
@@ -165,7 +169,11 @@ function converted(cap, { whole }) {
   return whole && { ...cap, mark: circleOfWhole(whole) };
 }
 
-/** To the next cap in reading order; from the last one the key leads on into the page. @type {(state: EditorState, by: number) => boolean} */
+/**
+ * To the next cap in reading order; from the last one the key leads on into the page.
+ *
+ * @type {(state: EditorState, by: number) => boolean}
+ */
 function cycle(state, by) {
   const order = state.visible
     .map((shape) => ({ uid: shape.uid, key: readingKey(shape) }))

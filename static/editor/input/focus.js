@@ -5,7 +5,18 @@
  * @module
  */
 
-const TEXT = ["text", "search", "url", "tel", "email", "password", "number", "date", "time", "datetime-local"];
+const TEXT = [
+  "text",
+  "search",
+  "url",
+  "tel",
+  "email",
+  "password",
+  "number",
+  "date",
+  "time",
+  "datetime-local",
+];
 /** What is open over the page keeps its keys. */
 const DIALOG = "[role=dialog], dialog";
 /** Keys by which people walk through a page and use what they come to. */
@@ -60,12 +71,18 @@ export function bringFocusBack(host) {
   );
 }
 
-/** Whether a press belongs to something that needs the focus from then on. @type {(target: EventTarget | null) => boolean} */
+/**
+ * Whether a press belongs to something that needs the focus from then on.
+ *
+ * @type {(target: EventTarget | null) => boolean}
+ */
 function keepsFocus(target) {
   if (!(target instanceof Element)) return true;
   const label = target.closest("label");
   const field = label?.control ?? target;
-  return takesText(field) || isOption(target) || target.closest(`${DIALOG}, [role=listbox], a[href]`) !== null;
+  return (
+    takesText(field) || isOption(target) || target.closest(`${DIALOG}, [role=listbox], a[href]`) !== null
+  );
 }
 
 /** @type {(target: EventTarget | null) => boolean} */

@@ -100,7 +100,11 @@ export class Pointer {
     this.#caused(event.timeStamp, "drag");
   }
 
-  /** The first click of two may have ended the work of one tool and the second have begun another's. @type {(event: MouseEvent) => void} */
+  /**
+   * The first click of two may have ended the work of one tool and the second have begun another's.
+   *
+   * @type {(event: MouseEvent) => void}
+   */
   #double(event) {
     if (isChrome(event)) return;
     const tool = this.#tool();

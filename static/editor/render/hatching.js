@@ -6,7 +6,11 @@ import { traceRing, traceWhole } from "./paths.js";
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("./paths.js").Context} Context */
 
-/** Hatches what is known of ignored caps: the visible outline, else the mark. @type {(context: Context, view: View, shapes: Shape[]) => void} */
+/**
+ * Hatches what is known of ignored caps: the visible outline, else the mark.
+ *
+ * @type {(context: Context, view: View, shapes: Shape[]) => void}
+ */
 export function hatch(context, view, shapes) {
   const pattern = shapes.length ? linesFor(context) : null;
   if (!pattern) return;

@@ -87,7 +87,8 @@ function paintGroup(context, view, shapes, { style, visible, fine }) {
   const large = shapes.filter((shape) => sizeOf(shape, view) >= SMALL_PX);
   const ignored = shapes.filter(({ cap }) => cap.ignored);
   hatch(context, view, ignored);
-  if (style === "selected" || (style !== "ignored" && visible.fill)) fillShapes(context, view, shapes, FILLS[style]);
+  if (style === "selected" || (style !== "ignored" && visible.fill))
+    fillShapes(context, view, shapes, FILLS[style]);
   if (visible.whole && style !== "ignored") strokeWholes(context, view, large);
   if (visible.outline || style === "prediction") strokeOutlines(context, view, shapes, style, fine);
   if (visible.whole && style !== "ignored") strokeMarks(context, view, large);

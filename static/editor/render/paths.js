@@ -81,7 +81,11 @@ export function strokeShaded(context, colour) {
   context.stroke();
 }
 
-/** A few words in the middle under a point of the screen, readable on any photo. @type {(context: Context, text: string, x: number, y: number) => void} */
+/**
+ * A few words in the middle under a point of the screen, readable on any photo.
+ *
+ * @type {(context: Context, text: string, x: number, y: number) => void}
+ */
 export function writeCentred(context, text, x, y) {
   context.font = "600 11px system-ui, sans-serif";
   context.textAlign = "center";

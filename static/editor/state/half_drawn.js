@@ -62,7 +62,11 @@ export class HalfDrawn {
     this.#dropped = true;
   }
 
-  /** Goes on with these points; nothing of what was there before can be brought back. @type {(points: Point[]) => void} */
+  /**
+   * Goes on with these points; nothing of what was there before can be brought back.
+   *
+   * @type {(points: Point[]) => void}
+   */
   begin(points) {
     if (this.empty && points.length === 0 && !this.canRedo) return;
     this.#become(points, []);

@@ -16,7 +16,11 @@ export class History {
   /** @type {Change[][]} */
   #undone = [];
 
-  /** Something new was done; what was taken back of other caps can still be done again. @type {(changes: Change[]) => void} */
+  /**
+   * Something new was done; what was taken back of other caps can still be done again.
+   *
+   * @type {(changes: Change[]) => void}
+   */
   push(changes) {
     this.#done.push(changes);
     this.#undone = untouched(this.#undone, (set) => set, changes);

@@ -68,7 +68,11 @@ export class Viewport {
     this.#lookAt(this.#looks.get(image.id) ?? null);
   }
 
-  /** What was in the middle stays there, and a photo that was wholly on screen stays so. @type {(size: Size) => void} */
+  /**
+   * What was in the middle stays there, and a photo that was wholly on screen stays so.
+   *
+   * @type {(size: Size) => void}
+   */
   resize({ width, height }) {
     const { look } = this;
     const whole = this.#isWholeOnScreen();

@@ -67,7 +67,11 @@ export class KeptDrawings {
     return stays;
   }
 
-  /** Brings back what is half drawn on an image. @type {(image: number) => Promise<boolean>} whether that is anything */
+  /**
+   * Brings back what is half drawn on an image.
+   *
+   * @type {(image: number) => Promise<boolean>} whether that is anything
+   */
   async open(image) {
     this.#image = image;
     const kept = this.#own.get(image) ?? (await this.#takeUp(image));

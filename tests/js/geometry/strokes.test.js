@@ -5,7 +5,11 @@ import { comesRound, edgesCross } from "../../../static/editor/geometry/strokes.
 
 /** @typedef {import("../../../static/editor/protocol.js").Point} Point */
 
-/** An arc of a circle of 60 around the origin, a point every 6 degrees. @type {(from: number, to: number, radius?: (degrees: number) => number) => Point[]} */
+/**
+ * An arc of a circle of 60 around the origin, a point every 6 degrees.
+ *
+ * @type {(from: number, to: number, radius?: (degrees: number) => number) => Point[]}
+ */
 function arc(from, to, radius = () => 60) {
   return Array.from({ length: Math.floor((to - from) / 6) + 1 }, (_, i) => from + 6 * i).map((degrees) => {
     const angle = (degrees * Math.PI) / 180;

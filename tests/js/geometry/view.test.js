@@ -1,7 +1,14 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { closeUp, glimpsing, revealing, toImage, viewOf, zoomed } from "../../../static/editor/geometry/view.js";
+import {
+  closeUp,
+  glimpsing,
+  revealing,
+  toImage,
+  viewOf,
+  zoomed,
+} from "../../../static/editor/geometry/view.js";
 import { chances } from "../support/chances.js";
 
 const SIZE = { width: 1016, height: 850 };

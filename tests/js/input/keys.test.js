@@ -11,7 +11,11 @@ const NAMES = [
   ...DECLARED.layers.map(({ name }) => commandOfLayer(name)),
 ];
 
-/** What the browser tells of a key. @type {(fields: Partial<import("../../../static/editor/input/keys.js").Chord>) => import("../../../static/editor/input/keys.js").Chord} */
+/**
+ * What the browser tells of a key.
+ *
+ * @type {(fields: Partial<import("../../../static/editor/input/keys.js").Chord>) => import("../../../static/editor/input/keys.js").Chord}
+ */
 const chord = (fields) => {
   return { key: "", code: "", ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...fields };
 };

@@ -33,7 +33,10 @@ test("undo takes points back one by one, and redo places them again in their ord
 
 test("with no point left there is nothing to undo, and everything to redo", () => {
   const outline = drawn(FOUR.slice(0, 1));
-  assert.deepEqual([outline.undo(), outline.undo(), outline.empty, outline.canRedo], [true, false, true, true]);
+  assert.deepEqual(
+    [outline.undo(), outline.undo(), outline.empty, outline.canRedo],
+    [true, false, true, true],
+  );
 });
 
 test("a new point ends what could be placed again", () => {

@@ -41,7 +41,11 @@ export function openState({ shapes = [], predictions = [] } = {}) {
   return { state, committed };
 }
 
-/** Shapes as they come from the server. @type {(uid: string, cap: import("../../../static/editor/protocol.js").Cap) => Shape} */
+/**
+ * Shapes as they come from the server.
+ *
+ * @type {(uid: string, cap: import("../../../static/editor/protocol.js").Cap) => Shape}
+ */
 export function storedShape(uid, cap) {
   const fields = { image: 1, revision: 1, deleted: false, whole: null, centre: null, extra: {} };
   return shapeOfAnnotation({ uid, cap, ...fields });

@@ -94,7 +94,10 @@ test("two tabs on one image keep an outline each", async () => {
   third.drawings.write();
   third.drawings.leave();
   await third.drawings.open(1);
-  assert.deepEqual([first, third.halfDrawn.points].sort((a, b) => a.length - b.length), [[[7, 7]], POINTS]);
+  assert.deepEqual(
+    [first, third.halfDrawn.points].sort((a, b) => a.length - b.length),
+    [[[7, 7]], POINTS],
+  );
 });
 
 test("another project's outlines stay where they are", async () => {
@@ -120,7 +123,8 @@ test("what somebody has begun meanwhile is not replaced", async () => {
 
 test("what makes no sense in the storage is cleared away", async () => {
   const { storage, tab } = browser();
-  for (const [i, text] of ["{", "[[1]]", '["a"]', "null", "[]"].entries()) storage.setItem(`fairyring:drawing:beds:1:${i}`, text);
+  for (const [i, text] of ["{", "[[1]]", '["a"]', "null", "[]"].entries())
+    storage.setItem(`fairyring:drawing:beds:1:${i}`, text);
   assert.equal(await tab().drawings.open(1), false);
   assert.equal(storage.length, 0);
 });

@@ -67,7 +67,11 @@ export class PolygonTool {
     return this.#drawn.points.length >= FEWEST && this.#fromPoint(0, press) <= GRAB_PX;
   }
 
-  /** CSS pixels from a point that is drawn; infinitely many where there is none. @type {(index: number, press: Press) => number} */
+  /**
+   * CSS pixels from a point that is drawn; infinitely many where there is none.
+   *
+   * @type {(index: number, press: Press) => number}
+   */
   #fromPoint(index, press) {
     const point = this.#drawn.points.at(index);
     return point ? apart(toScreen(this.#state.viewport.view, ...point), press.screen) : Infinity;
@@ -100,7 +104,11 @@ export class PolygonTool {
     ]);
   }
 
-  /** Letting go near the start of a freehand outline, or after running on beyond it, closes it. @type {(press: Press) => void} */
+  /**
+   * Letting go near the start of a freehand outline, or after running on beyond it, closes it.
+   *
+   * @type {(press: Press) => void}
+   */
   up(press) {
     const before = this.#before;
     this.#before = null;

@@ -48,7 +48,11 @@ export class SelectTool {
   #last = [0, 0];
   /** @type {Handle | null} */
   #under = null;
-  /** Where a vertex was taken out, and of which cap, while the pointer is still about there. @type {{at: Point, uid: string} | null} */
+  /**
+   * Where a vertex was taken out, and of which cap, while the pointer is still about there.
+   *
+   * @type {{at: Point, uid: string} | null}
+   */
   #removed = null;
   /** @type {Point} */
   #at = [0, 0];

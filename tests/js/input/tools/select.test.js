@@ -81,7 +81,10 @@ test("a vertex taken out of a prediction makes an annotation of it, which a seco
   del();
   del();
   assert.deepEqual(
-    state.items.all.map((/** @type {any} */ shape) => [shape.cap.prediction, shape.cap.visible[0].length / 2]),
+    state.items.all.map((/** @type {any} */ shape) => [
+      shape.cap.prediction,
+      shape.cap.visible[0].length / 2,
+    ]),
     [[1, 5]],
   );
 });

@@ -37,5 +37,7 @@ def test_nothing_is_said_of_an_outline_that_is_stored_as_it_was_drawn_or_ends_wi
 ) -> None:
     with Tab(port, image=1) as tab:
         tab.expect(Show)
-        tab.edit(new_cap(1, visible=circle(60, 50, 20)), new_cap(1, uid="b", edit="e2", visible=circle(2, 50, 20)))
+        tab.edit(
+            new_cap(1, visible=circle(60, 50, 20)), new_cap(1, uid="b", edit="e2", visible=circle(2, 50, 20))
+        )
         assert tab.nothing_more(Notice)
