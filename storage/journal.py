@@ -26,6 +26,10 @@ class Derived(Struct, frozen=True, kw_only=True):
 
     edit: Edit
     fit: Fit = Fit()
+    checked: Cap | None = None
+    """The cap as it can be stored, where `check_cap` was asked already, with the image's size."""
+    unfit: str = ""
+    """Why it cannot be stored, where `check_cap` said so."""
 
 
 class Entry(Struct, frozen=True, kw_only=True):
@@ -57,7 +61,7 @@ def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Out
         project.require_writable()
     except StoreError as error:
         return [Refused(edit=derived.edit.id, reason=str(error)) for derived in edits]
-    checked = _check_caps(project, [derived.edit for derived in edits])
+    checked = _check_caps(project, edits)
     return project.write(lambda connection: _commit_all(connection, edits, checked, user=user))
 
 
@@ -85,22 +89,27 @@ def digest_of(edit: Edit) -> str:
     return sha256(json.encode(edit)).hexdigest()
 
 
-def _check_caps(project: Project, edits: Sequence[Edit]) -> list[Cap | FairyringError | None]:
+def _check_caps(project: Project, edits: Sequence[Derived]) -> list[Cap | FairyringError | None]:
     """The cap of each edit as it can be stored, or why it cannot; None where the edit has none."""
     photos: dict[int, AnyRow] = {}
     checked: list[Cap | FairyringError | None] = []
     with project.read() as connection:
-        for edit in edits:
+        for derived in edits:
             try:
-                checked.append(None if edit.cap is None else _check(connection, edit.cap, edit.image, photos))
+                checked.append(_check(connection, derived, photos))
             except FairyringError as error:
                 checked.append(error)
     return checked
 
 
-def _check(connection: Connection, cap: Cap, image_id: int, photos: dict[int, AnyRow]) -> Cap:
-    photo = photos[image_id] = photos.get(image_id) or require_image(connection, image_id)
-    return check_cap(cap, width=photo.width, height=photo.height)
+def _check(connection: Connection, derived: Derived, photos: dict[int, AnyRow]) -> Cap | None:
+    edit = derived.edit
+    if derived.unfit:
+        raise StoreError(derived.unfit)
+    if edit.cap is None or derived.checked is not None:
+        return derived.checked
+    photo = photos[edit.image] = photos.get(edit.image) or require_image(connection, edit.image)
+    return check_cap(edit.cap, width=photo.width, height=photo.height)
 
 
 def _commit_all(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
@@ -26,15 +27,25 @@ CLUSTER = Recipe(width=1280, height=720, count=50, noise=1.0)
 
 def add_crowd(project: Project, folder: Path, *, caps: int = CROWD) -> None:
     """Adds the photo, linked from ``folder``, and its predictions, fitted."""
+    add_crowds(project, folder, [CROWD_PHOTO], caps=caps)
+
+
+def add_crowds(project: Project, folder: Path, names: Sequence[str], *, caps: int = CROWD) -> None:
+    """Adds photos of so many caps each, no two alike, as `add_crowd` adds one."""
     folder.mkdir(exist_ok=True)
     width, height = ACROSS * CLUSTER.width, ACROSS * CLUSTER.height
-    cv2.imwrite(str(folder / CROWD_PHOTO), np.full((height, width, 3), 90, np.uint8))
+    for name in names:
+        cv2.imwrite(str(folder / name), np.full((height, width, 3), 90, np.uint8))
+    outlines = [(image, each) for image in range(len(names)) for each in crowded_outlines(caps, crowd=image)]
     document = {
-        "images": [{"id": 1, "file_name": CROWD_PHOTO, "width": width, "height": height}],
+        "images": [
+            {"id": image, "file_name": name, "width": width, "height": height}
+            for image, name in enumerate(names)
+        ],
         "categories": [{"id": 1, "name": "mushroom"}],
         "annotations": [
-            {"id": number, "image_id": 1, "category_id": 1, "segmentation": outline, "score": 0.9}
-            for number, outline in enumerate(crowded_outlines(caps), start=1)
+            {"id": number, "image_id": image, "category_id": 1, "segmentation": outline, "score": 0.9}
+            for number, (image, outline) in enumerate(outlines, start=1)
         ],
     }
     labels = folder / "crowd.json"
@@ -43,14 +54,15 @@ def add_crowd(project: Project, folder: Path, *, caps: int = CROWD) -> None:
     fill_in(project)
 
 
-def crowded_outlines(caps: int) -> list[Outline]:
-    """Visible outlines of so many caps, in clusters on a grid."""
+def crowded_outlines(caps: int, *, crowd: int = 0) -> list[Outline]:
+    """Visible outlines of so many caps, in clusters on a grid; every ``crowd`` has others."""
     outlines: list[Outline] = []
     for index in range(ACROSS**2):
         row, column = divmod(index, ACROSS)
         corner = column * CLUSTER.width, row * CLUSTER.height
         if len(outlines) < caps:
-            outlines += [_outline(cap, *corner) for cap in make_cluster(seed=index, recipe=CLUSTER).caps]
+            cluster = make_cluster(seed=crowd * ACROSS**2 + index, recipe=CLUSTER)
+            outlines += [_outline(cap, *corner) for cap in cluster.caps]
     return outlines[:caps]
 
 

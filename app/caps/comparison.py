@@ -8,12 +8,14 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from itertools import compress
 from typing import TypeVar
 
 import anyio.to_thread
 
 from fairyring.app.caps.image_caps import ImageCaps
+from fairyring.app.workers.crew import Run, here
 from fairyring.model.evaluate import centres
 from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
@@ -54,14 +56,20 @@ def compare_cap(caps: ImageCaps, uid: str) -> centres.Pair | None:
     return next((pair for pair in found.pairs if near[pair.truth] == uid), None)
 
 
+def near_cap(annotation: Annotation, said: Sequence[Prediction]) -> list[Prediction]:
+    """Those predictions that can match a cap."""
+    keys = _near(covered_by(annotation), {nth: each.visible for nth, each in enumerate(said)})
+    return [said[nth] for nth in keys]
+
+
 def _near(outline: Outline, others: Mapping[Key, Outline]) -> list[Key]:
     """The keys of the other outlines whose boxes touch that of ``outline``."""
     (near,) = touching(boxes_of_outlines([outline]), boxes_of_outlines(list(others.values())))
     return list(compress(others, near))
 
 
-def compare_image(project: Project, image_id: int) -> Comparison | None:
-    """Computes and stores the figures of one image; None where no run has seen it."""
+def compare_image(project: Project, image_id: int, *, run: Run = here) -> Comparison | None:
+    """Computes, by ``run``, and stores the figures of one image; None where no network has seen it."""
     with project.read() as connection:
         version = load_version(connection, image_id)
         contents = load_contents(connection, image_id)
@@ -69,8 +77,7 @@ def compare_image(project: Project, image_id: int) -> Comparison | None:
         predictions = load_predictions(connection, image_id)
     if contents.run is None:
         return None
-    found = compare(contents.image, annotations, predictions)
-    figures = _figures(contents.run.id, version, contents.image, annotations, found)
+    figures = run(_compared, contents.run.id, version, contents.image, annotations, predictions)
     project.write(lambda connection: store_comparison(connection, figures))
     return figures
 
@@ -79,9 +86,15 @@ class Reviewer:
     """Keeps the figures of edited images up to date, in the background, one image at a time."""
 
     def __init__(
-        self, project: Project, *, compared: Callable[[int], None], quiet_s: float = QUIET_S
+        self,
+        project: Project,
+        *,
+        compared: Callable[[int], None],
+        run: Run = here,
+        quiet_s: float = QUIET_S,
     ) -> None:
         self._project = project
+        self._run = run
         self._compared = compared
         self._quiet_s = quiet_s
         self._waiting: dict[int, float] = {}
@@ -108,7 +121,7 @@ class Reviewer:
                     await asyncio.sleep(min(wait, self._quiet_s))
                     continue
                 del self._waiting[image_id]
-                await anyio.to_thread.run_sync(compare_image, self._project, image_id)
+                await anyio.to_thread.run_sync(partial(compare_image, self._project, image_id, run=self._run))
                 self._compared(image_id)
         except Exception:
             log.exception("An image could not be compared with its predictions.")
@@ -116,9 +129,14 @@ class Reviewer:
             self._task = None
 
 
-def _figures(
-    run_id: int, version: int, image: Image, annotations: Sequence[Annotation], found: centres.Comparison
+def _compared(
+    run_id: int,
+    version: int,
+    image: Image,
+    annotations: Sequence[Annotation],
+    predictions: Sequence[Prediction],
 ) -> Comparison:
+    found = compare(image, annotations, predictions)
     summary = centres.summarise(found.errors)
     real = [annotation for annotation in annotations if not annotation.cap.ignored]
     worst = max(

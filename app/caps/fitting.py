@@ -16,6 +16,7 @@ from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
 from fairyring.model.contour.statistics import Statistics, usual_statistics
 from fairyring.model.geometry.boxes import Box, box_of_outline
+from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
@@ -84,6 +85,13 @@ class Fitting:
             width, height = self._image.width, self._image.height
             known.silhouette = silhouette_of_outline(known.outline, width=width, height=height)
         return known.silhouette
+
+
+def fitted_anew(image: Image, outlines: Sequence[Outline]) -> tuple[list[Fit], dict[str, float]]:
+    """The whole outlines of all caps of an image, by statistics measured on them, and those statistics."""
+    fitting = Fitting(image, None)
+    found = fitting.reconstructions(outlines, visible=outlines)
+    return [each.fit for each in found], fitting.statistics
 
 
 def known_statistics(image: Image) -> Statistics:

@@ -16,13 +16,15 @@ from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
 from fairyring.model.contour.marks import whole_of_mark
 from fairyring.model.contour.result import Reconstruction
+from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.outline_checks import check_mark
 from fairyring.model.geometry.shapes import Circle, Fit, GeometryError, Polygon, fit_of_shape
+from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit, Mark, Outline
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline
 
 TELLING = 0.005
 """A stored centre that a new fit would move by less than this, pixels, is as good as new."""
@@ -58,6 +60,11 @@ def refit(caps: ImageCaps, request: Refit) -> Fitted:
     )
 
 
+def note_on(caps: ImageCaps, uid: str) -> str:
+    """How the whole outline of an annotation came about, or why there is none."""
+    return note_of(reconstruction_of(uid, caps.annotations[uid].cap, caps))
+
+
 def note_of(found: Reconstruction) -> str:
     """Says how a whole outline came about, or why there is none."""
     return found.fit.refusal or found.why
@@ -68,15 +75,38 @@ def derive_edits(project: Project, edits: Sequence[Edit], *, known: ImageCaps | 
 
     ``known`` saves loading the image it shows. Edits that make no sense are left to the journal to refuse.
     """
-    images = {known.image.id: known} if known else {}
-    with project.read() as connection:
-        for image_id in {edit.image for edit in edits} - images.keys():
-            with suppress(StoreError):
-                images[image_id] = caps_of(load_contents(connection, image_id))
-    fits: dict[str, Fit] = {}
-    for image_id, caps in images.items():
-        fits |= _fits_of_edits([edit for edit in edits if edit.image == image_id], caps)
-    return [Derived(edit=edit, fit=fits.get(edit.id, Fit())) for edit in edits]
+    found: dict[str, Derived] = {}
+    for image_id in {edit.image for edit in edits}:
+        of_image = [edit for edit in edits if edit.image == image_id]
+        caps = known if known and known.image.id == image_id else load_caps(project, image_id)
+        if caps is not None:
+            found |= {derived.edit.id: derived for derived in derived_of(caps, of_image)}
+    return [found.get(edit.id) or Derived(edit=edit) for edit in edits]
+
+
+def load_caps(project: Project, image_id: int) -> ImageCaps | None:
+    """The caps of an image as they are stored; None where the project has no such image."""
+    with suppress(StoreError), project.read() as connection:
+        return caps_of(load_contents(connection, image_id))
+    return None
+
+
+def derived_of(caps: ImageCaps, edits: Sequence[Edit]) -> list[Derived]:
+    """Checks the caps of edits of one image and fits them, as they stand with all of these edits in it."""
+    outlines = {edit.id: _checked(edit.annotation, edit.cap, caps) for edit in edits if edit.cap is not None}
+    fits = _fits_of_edits(edits, outlines, caps)
+    return [_derived(edit, outlines.get(edit.id), fits.get(edit.id, Fit()), caps.image) for edit in edits]
+
+
+def _derived(edit: Edit, outline: Outline | None, fit: Fit, image: Image) -> Derived:
+    if edit.cap is None:
+        return Derived(edit=edit)
+    try:
+        # A repaired outline needs no second repair; why one cannot be used is found again at no cost.
+        cap = edit.cap if outline is None else msgspec.structs.replace(edit.cap, visible=outline)
+        return Derived(edit=edit, fit=fit, checked=check_cap(cap, width=image.width, height=image.height))
+    except FairyringError as error:
+        return Derived(edit=edit, unfit=str(error))
 
 
 def fit_of_mark(mark: Mark) -> Reconstruction:
@@ -112,9 +142,10 @@ def _as_stored(found: Reconstruction, stored: Fit) -> Reconstruction:
     return replace(found, fit=fit, why=f"{found.why}; fitted anew its centre would move {apart:.2f} px")
 
 
-def _fits_of_edits(edits: Sequence[Edit], caps: ImageCaps) -> dict[str, Fit]:
+def _fits_of_edits(
+    edits: Sequence[Edit], outlines: Mapping[str, Outline | None], caps: ImageCaps
+) -> dict[str, Fit]:
     """Fits by edit id; none for deletions, nor for edits that a later one of the set replaces."""
-    outlines = {edit.id: _checked(edit.annotation, edit.cap, caps) for edit in edits if edit.cap is not None}
     after = caps.with_annotations(_edited(caps, edits, outlines))
     fits: dict[str, Fit] = {}
     wanted: dict[str, Outline] = {}

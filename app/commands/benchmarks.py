@@ -82,6 +82,17 @@ def fit(
 
 
 @commands.command()
+def people(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time edits and live fits while twenty people drag caps on dense beds at once.
+
+    Example: `fairyring bench people --json`
+    """
+    from fairyring.app.bench.people import people_rows
+
+    print_rows("people", people_rows(quick=quick), as_json=as_json)
+
+
+@commands.command()
 def scene(
     *,
     real: Annotated[

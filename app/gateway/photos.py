@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-import os
+import logging
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 import anyio
 import anyio.to_thread
-import cv2
 import PIL.Image
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
 from fairyring.app.addresses import content_of
 from fairyring.app.gateway.login import name_of
-from fairyring.model import photo
+from fairyring.app.gateway.photo_copies import photo_copy
+from fairyring.app.workers.crew import Run, here
 from fairyring.model.errors import FairyringError
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
 from fairyring.storage.originals import PhotoChangedError, PhotoGoneError
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
+
+log = logging.getLogger(__name__)
 
 FOR_EVER = "private, max-age=31536000, immutable"
 WIDTHS = (160, 500, 1000, 2000, 4000)
@@ -33,12 +36,26 @@ LARGEST_ID = 2**63 - 1
 EXIF_ORIENTATION = 0x0112
 CACHED = "photos"
 """Folder in the project's cache."""
-QUALITY_FULL, QUALITY_SCALED = 95, 88
 
 
-def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awaitable[Response]]:
-    """The endpoint of `PHOTOS`, which takes a width as ``?w=``; ``cache_limit`` in bytes."""
-    cache = project.cache / CACHED
+@dataclass(frozen=True, kw_only=True)
+class _Copies:
+    """Where converted photos are kept, and who makes them."""
+
+    folder: Path
+    limit: int
+    """Bytes."""
+    run: Run
+
+
+def photos_of(
+    project: Project, *, cache_limit: int, run: Run = here
+) -> Callable[[Request], Awaitable[Response]]:
+    """The endpoint of `PHOTOS`, which takes a width as ``?w=``.
+
+    Photos are decoded by ``run``, and kept in the project's cache as long as they fit ``cache_limit``, bytes.
+    """
+    copies = _Copies(folder=project.cache / CACHED, limit=cache_limit, run=run)
     decoding = anyio.CapacityLimiter(2)
 
     async def photos(request: Request) -> Response:
@@ -50,7 +67,7 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
         width = _width_wanted(request.query_params.get("w"), image)
         try:
             file, media_type = await anyio.to_thread.run_sync(
-                _file_for, project, image, width, cache, cache_limit, limiter=decoding
+                _file_for, project, image, width, copies, limiter=decoding
             )
         except PhotoGoneError:
             return PlainTextResponse(f"{image.file_name} is gone; put the photo back.", status_code=404)
@@ -61,7 +78,11 @@ def photos_of(project: Project, *, cache_limit: int) -> Callable[[Request], Awai
                 status_code=409,
             )
         except FairyringError as error:
-            return PlainTextResponse(str(error), status_code=404)
+            # Where it lies is nobody's business in a browser.
+            log.warning("A photo cannot be shown: %s", error)
+            return PlainTextResponse(
+                f"{image.file_name} cannot be read; the server's log says why.", status_code=404
+            )
         return FileResponse(file, media_type=media_type, headers={"Cache-Control": FOR_EVER})
 
     return photos
@@ -82,9 +103,7 @@ def _width_wanted(asked: str | None, image: Image) -> int | None:
     return next((width for width in WIDTHS if int(asked) <= width < image.width), None)
 
 
-def _file_for(
-    project: Project, image: Image, width: int | None, cache: Path, cache_limit: int
-) -> tuple[Path, str]:
+def _file_for(project: Project, image: Image, width: int | None, copies: _Copies) -> tuple[Path, str]:
     """The file to send and its media type.
 
     Raises FairyringError where the photo is gone, is another or cannot be read.
@@ -92,10 +111,10 @@ def _file_for(
     source = project.originals.path_of(image)
     if width is None and (media_type := type_shown_as_it_is(source)) is not None:
         return source, media_type
-    made = cache / f"{image.sha256}-{width or 'full'}.jpg"
+    made = copies.folder / f"{image.sha256}-{width or 'full'}.jpg"
     if not made.is_file():
-        _convert(source, made, image=image, width=width)
-        make_room(cache, cache_limit)
+        copies.run(photo_copy, source, made, image, width)
+        make_room(copies.folder, copies.limit)
     return made, PIL.Image.MIME["JPEG"]
 
 
@@ -110,22 +129,6 @@ def type_shown_as_it_is(source: Path) -> str | None:
             return PIL.Image.MIME[opened.format or ""] if shown else None
     except (OSError, ValueError, PIL.Image.DecompressionBombError):
         return None
-
-
-def _convert(source: Path, made: Path, *, image: Image, width: int | None) -> None:
-    if width is None:
-        pixels, quality = photo.read(source), QUALITY_FULL
-    else:
-        height = max(round(image.height * width / image.width), 1)
-        pixels = photo.read(source, longest=max(width, height))
-        if pixels.shape[:2] != (height, width):
-            pixels = cv2.resize(pixels, (width, height), interpolation=cv2.INTER_AREA)
-        quality = QUALITY_SCALED
-    _, encoded = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, quality])
-    made.parent.mkdir(parents=True, exist_ok=True)
-    partial = made.with_suffix(f".{os.getpid()}-{os.urandom(4).hex()}")
-    partial.write_bytes(encoded.tobytes())
-    partial.replace(made)
 
 
 def clear_unfinished(project: Project) -> None:

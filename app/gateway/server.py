@@ -36,6 +36,7 @@ from fairyring.app.jobs.exports import exports_folder
 from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
+from fairyring.app.workers.crew import crew
 from fairyring.model.errors import FairyringError
 from fairyring.storage.importing.staging import clear_killed_imports
 from fairyring.storage.project import Project, open_project
@@ -76,7 +77,7 @@ def serve(
         _clear_leftovers(project)
         if project.read_only:
             log.warning("%s is read-only: it is shown as it is now, and changes are refused.", project.folder)
-        workspace = Workspace(project, settings)
+        workspace = Workspace(project, settings, crew=crew(apart=True))
         door = door_of(project.cache, project_id=project.id) if settings.token else None
 
         def announce() -> None:
@@ -124,7 +125,9 @@ def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
             WebSocketRoute("/", relay_to(upstream)),
             WebSocketRoute("/editor", editor_of(workspace)),
             Route("/name", name_page, methods=["GET", "POST"]),
-            Route(PHOTOS, photos_of(workspace.project, cache_limit=cache_limit)),
+            Route(
+                PHOTOS, photos_of(workspace.project, cache_limit=cache_limit, run=workspace.crew.photos.run)
+            ),
             Route(DOWNLOADS, downloads_of(workspace.project)),
             Route("/healthz", _healthz),
             Route("/static/{version}/{path:path}", static_file),

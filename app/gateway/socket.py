@@ -126,7 +126,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
         session.notify("This project is read-only; changes to it are refused.", "warning")
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
-    refits = Refits(session)
+    refits = Refits(workspace, session)
     limit = workspace.settings.message_limit_mb * A_MEGABYTE
     try:
         while True:

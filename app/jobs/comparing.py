@@ -6,22 +6,23 @@ from collections.abc import Callable
 
 from fairyring.app.caps.comparison import compare_image
 from fairyring.app.jobs.runner import Result
+from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
 from fairyring.storage.comparisons import stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 
 
-def compare_work(project: Project) -> Callable[[Progress], Result]:
+def compare_work(project: Project, *, run: Run = here) -> Callable[[Progress], Result]:
     """The work of a job that brings the figures of every image of the latest run up to date."""
 
     def work(progress: Progress) -> Result:
         with project.read() as connection:
-            run = latest_run(connection)
-            stale = stale_images(connection, run.id) if run else []
+            latest = latest_run(connection)
+            stale = stale_images(connection, latest.id) if latest else []
         for done, image_id in enumerate(stale):
             progress(done, len(stale), "Comparing caps with predictions")
-            compare_image(project, image_id)
+            compare_image(project, image_id, run=run)
         return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
 
     return work

@@ -10,6 +10,7 @@ from zipfile import ZIP_STORED, ZipFile
 from fairyring.app.addresses import download_address
 from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.jobs.runner import Result
+from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
 from fairyring.storage.choices import Only
 from fairyring.storage.exporting import export_coco
@@ -25,11 +26,11 @@ def exports_folder(project: Project) -> Path:
     return project.cache / "exports"
 
 
-def export_work(project: Project, *, only: Only) -> Callable[[Progress], Result]:
+def export_work(project: Project, *, only: Only, run: Run = here) -> Callable[[Progress], Result]:
     """The work of an export job: whole outlines that are missing, the data set, the zip file."""
 
     def work(progress: Progress) -> Result:
-        fill_in(project, progress=progress)
+        fill_in(project, run=run, progress=progress)
         exports = exports_folder(project)
         exports.mkdir(parents=True, exist_ok=True)
         with temporary_folder(exports) as folder:

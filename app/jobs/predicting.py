@@ -14,7 +14,8 @@ import numpy as np
 import torch
 from sqlalchemy import Connection
 
-from fairyring.app.caps.fitting import Fitting
+from fairyring.app.caps.fitting import fitted_anew
+from fairyring.app.workers.crew import Run, here
 from fairyring.model import photo
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
@@ -100,11 +101,13 @@ def predict_images(
     image_ids: Sequence[int],
     *,
     redo: bool = False,
+    compute: Run = here,
     progress: Progress = silent,
     predicted: Callable[[int], None] = lambda _: None,
 ) -> Outcome:
     """Predicts images, each stored whole in one transaction; ``predicted`` is called with its number then.
 
+    The network runs in this process, the caps it saw are fitted by ``compute``.
     Images that show what this network saw are passed over, unless ``redo``; so the same call again goes on
     where one was stopped. A photo that cannot be read is told of and passed over. Raises FairyringError where
     that is so of every one, and whatever ``progress`` raises.
@@ -117,7 +120,7 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new, statistics = _predictions_of(network, project, image)
+            new, statistics = _predictions_of(network, project, image, compute)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
@@ -162,7 +165,7 @@ class _Run:
 
 
 def _predictions_of(
-    network: Network, project: Project, image: Image
+    network: Network, project: Project, image: Image, compute: Run
 ) -> tuple[list[NewPrediction], dict[str, float]]:
     """What the network sees in a photo, and the statistics by which its caps were fitted."""
     pixels = photo.read(project.originals.path_of(image))
@@ -171,14 +174,12 @@ def _predictions_of(
         for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
         if (outline := usable_outline(detection.outline, width=image.width, height=image.height))
     ]
-    outlines = [outline for _, outline in found]
-    fitting = Fitting(image, None)
-    wholes = fitting.reconstructions(outlines, visible=outlines)
+    fits, statistics = compute(fitted_anew, image, [outline for _, outline in found])
     new = [
-        _prediction(nth, score, outline, whole.fit)
-        for nth, ((score, outline), whole) in enumerate(zip(found, wholes, strict=True))
+        _prediction(nth, score, outline, fit)
+        for nth, ((score, outline), fit) in enumerate(zip(found, fits, strict=True))
     ]
-    return new, fitting.statistics
+    return new, statistics
 
 
 def _prediction(nth: int, score: float, outline: Outline, fit: Fit) -> NewPrediction:

@@ -15,6 +15,7 @@ from typing import Literal
 
 import viser
 
+from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.editor_commands import LAYERS
 from fairyring.app.protocol import FromServer, Layers, Notice
@@ -54,6 +55,8 @@ class Session:
     """Closes the editor's socket."""
     caps: ImageCaps | None = None
     """The image on screen with its caps as they are now."""
+    copy: Copy = field(default_factory=Copy)
+    """The copy of these caps where fits are worked out."""
     run: Run | None = None
     """The run whose predictions are on screen."""
     filter: ImageFilter = field(default_factory=ImageFilter)

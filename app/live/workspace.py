@@ -17,6 +17,7 @@ from fairyring.app.jobs.runner import Job, Jobs, Result
 from fairyring.app.live.read_ahead import RecentImages
 from fairyring.app.live.session import Session, Tabs
 from fairyring.app.settings import Settings
+from fairyring.app.workers.crew import Crew, crew
 from fairyring.model.errors import FairyringError
 from fairyring.model.progress import Progress
 from fairyring.storage.project import Project
@@ -33,12 +34,18 @@ class Workspace:
     tabs: Tabs = field(default_factory=Tabs)
     jobs: Jobs = field(default_factory=Jobs)
     recent: RecentImages = field(default_factory=RecentImages)
+    crew: Crew = field(default_factory=lambda: crew(apart=False))
+    """Who computes; unless told otherwise threads of this process."""
     _ahead: set[asyncio.Task[None]] = field(default_factory=set)
 
     @cached_property
     def reviewer(self) -> Reviewer:
         """Compares images with their predictions after edits."""
-        return Reviewer(self.project, compared=lambda _image: self.refresh("review", "images"))
+        return Reviewer(
+            self.project,
+            compared=lambda _image: self.refresh("review", "images"),
+            run=self.crew.patient.run,
+        )
 
     def refresh(self, *parts: str) -> None:
         """Draws parts of every tab's panel anew."""
@@ -76,6 +83,7 @@ class Workspace:
         await self.jobs.close()
         await self.reviewer.close()
         await asyncio.gather(*self._ahead, return_exceptions=True)
+        await anyio.to_thread.run_sync(self.crew.close)
 
     async def read(self, query: Callable[[Connection], Found]) -> Found:
         """Runs a query in a thread, so that the event loop never waits for the disk."""

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from sqlalchemy import Connection
 
-from fairyring.app.caps.comparison import compare_cap
+from fairyring.app.caps.comparison import compare_cap, near_cap
 from fairyring.app.caps.image_caps import ImageCaps
-from fairyring.app.caps.whole_outlines import note_of, reconstruction_of
+from fairyring.app.caps.whole_outlines import note_on
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.buttons import command_button
@@ -32,9 +32,9 @@ class Background:
     entries: Sequence[Entry]
     prediction: Prediction | None
     run: Run | None
-    note: str
+    note: str = ""
     """How the whole outline came about."""
-    pair: Pair | None
+    pair: Pair | None = None
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
@@ -53,29 +53,36 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
         return EMPTY
     annotation = caps.annotations.get(selection.annotation or "")
     if annotation is not None and not annotation.deleted:
-        return annotation_facts(annotation, await _background(workspace, caps, annotation))
+        return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
     for prediction in caps.predictions:
         if prediction.id == selection.prediction:
             return prediction_facts(prediction, session.run)
     return summary(caps)
 
 
-async def _background(workspace: Workspace, caps: ImageCaps, annotation: Annotation) -> Background:
+async def _background(
+    workspace: Workspace, session: Session, caps: ImageCaps, annotation: Annotation
+) -> Background:
     started_from = annotation.cap.prediction
 
     def gather(connection: Connection) -> Background:
-        # A cap is compared with all that was said, also with what is not offered where the cap lies.
-        said = replace(caps, predictions=load_predictions(connection, caps.image.id))
         prediction = load_prediction(connection, started_from) if started_from is not None else None
         return Background(
             entries=history(connection, annotation.uid),
             prediction=prediction,
             run=load_run(connection, prediction.run) if prediction else None,
-            note=note_of(reconstruction_of(annotation.uid, annotation.cap, caps)),
-            pair=compare_cap(said, annotation.uid),
         )
 
-    return await workspace.read(gather)
+    # A cap is compared with all that was said, also with what is not offered where the cap lies.
+    said = await workspace.read(lambda connection: load_predictions(connection, caps.image.id))
+    worker = workspace.crew.of_image(caps.image.id)
+    note, pair = await session.copy.ask(worker, caps, _judged, annotation.uid, near_cap(annotation, said))
+    return replace(await workspace.read(gather), note=note, pair=pair)
+
+
+def _judged(caps: ImageCaps, uid: str, said: Sequence[Prediction]) -> tuple[str, Pair | None]:
+    """How a cap's whole outline came about, and its matching prediction among those near it."""
+    return note_on(caps, uid), compare_cap(replace(caps, predictions=said), uid)
 
 
 def annotation_facts(annotation: Annotation, background: Background) -> Markup:

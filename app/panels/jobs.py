@@ -34,10 +34,12 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def start_export() -> None:
         title = f"Export: {what.value.lower()}"
-        workspace.start_job(session, title, export_work(workspace.project, only=EXPORTS[what.value]))
+        work = export_work(workspace.project, only=EXPORTS[what.value], run=workspace.crew.patient.run)
+        workspace.start_job(session, title, work)
 
     async def start_comparison() -> None:
-        workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))
+        work = compare_work(workspace.project, run=workspace.crew.patient.run)
+        workspace.start_job(session, "Comparison with the predictions", work)
 
     async def cancel_own() -> None:
         for job in jobs_of(workspace, session):

@@ -15,6 +15,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.weights import require_weights, weights_of
+from fairyring.app.workers.crew import Run
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.progress import Progress
 from fairyring.storage.folder import WEIGHTS
@@ -44,7 +45,8 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             # Waits, so that nobody is told of the end before the last image is drawn.
             asyncio.run_coroutine_threadsafe(show_predictions(workspace, image_id), loop).result()
 
-        work = predict_work(workspace.project, image_ids, predicted=predicted)
+        compute = workspace.crew.patient.run
+        work = predict_work(workspace.project, image_ids, compute=compute, predicted=predicted)
         workspace.start_job(session, title, work)
 
     one.on_click(person_did(session, predict_one))
@@ -71,9 +73,12 @@ def weights_line(found: Path | None, project: Project) -> Markup:
 
 
 def predict_work(
-    project: Project, image_ids: Sequence[int], *, predicted: Callable[[int], None]
+    project: Project, image_ids: Sequence[int], *, compute: Run, predicted: Callable[[int], None]
 ) -> Callable[[Progress], Result]:
-    """The work of a job that predicts images; ``predicted`` is called in its thread once one is stored."""
+    """The work of a job that predicts images, whose caps ``compute`` has fitted.
+
+    ``predicted`` is called in the job's thread once an image is stored.
+    """
 
     def work(progress: Progress) -> Result:
         progress(0, len(image_ids), "Loading the network")
@@ -82,7 +87,9 @@ def predict_work(
 
         leave_a_core()
         network = network_of(require_weights(project))
-        outcome = predict_images(project, network, image_ids, progress=progress, predicted=predicted)
+        outcome = predict_images(
+            project, network, image_ids, compute=compute, progress=progress, predicted=predicted
+        )
         return Result(f"{network.name}: {outcome}")
 
     return work

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,10 @@ import pytest
 from fairyring.app.bench.serving import FAIRYRING, Server, served
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project
-from tests.support.tab import Tab, new_cap
+from fairyring.storage.records import Accepted
+from tests.support.descendants import children_of, is_running, words_of
+from tests.support.kept import live_caps
+from tests.support.tab import Tab, new_cap, until
 
 
 @pytest.fixture
@@ -47,6 +52,35 @@ def test_a_server_that_is_told_to_end_closes_the_project(folder: Path, told: sig
     server.process.send_signal(told)
     assert server.process.wait(timeout=20) == 130
     assert sorted(path.name for path in folder.glob("project.db*")) == ["project.db"]
+
+
+def workers_of(server: Server) -> list[int]:
+    """The processes that compute for a server."""
+    assert server.process is not None
+    return [pid for pid in children_of(server.process.pid) if "spawn_main" in words_of(pid)]
+
+
+def test_a_killed_worker_costs_nobody_an_edit(folder: Path) -> None:
+    with served(folder) as server, Tab(server.port, image=1) as tab:
+        for number in range(4):
+            (outcome,) = tab.edit(new_cap(1, uid=f"cap-{number}", edit=f"edit-{number}")).outcomes
+            assert isinstance(outcome, Accepted)
+            assert outcome.annotation.centre == pytest.approx((40, 40), abs=0.5)
+            for pid in workers_of(server):
+                os.kill(pid, signal.SIGKILL)
+    assert len(live_caps(folder)) == 4
+
+
+@pytest.mark.parametrize("ended", [Server.stop, Server.kill], ids=["Ctrl+C", "SIGKILL"])
+def test_the_workers_end_with_their_server(folder: Path, ended: Callable[[Server], object]) -> None:
+    server = Server(folder)
+    server.start()
+    with Tab(server.port, image=1) as tab:
+        tab.edit(new_cap(1))
+    workers = workers_of(server)
+    assert len(workers) > 0
+    ended(server)
+    until(lambda: not any(map(is_running, workers)), "the workers to end")
 
 
 def test_what_was_killed_in_the_middle_is_cleared_when_the_project_is_served(folder: Path) -> None:

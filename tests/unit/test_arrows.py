@@ -22,6 +22,7 @@ DRAWINGS = {
         live
         jobs
         caps  weights
+        workers
         protocol  addresses  settings  editor_commands
     """,
     "storage": """

@@ -14,7 +14,7 @@ import pytest
 from sqlalchemy import update
 
 from fairyring.app.addresses import photo_address
-from fairyring.app.gateway import photos
+from fairyring.app.gateway import photo_copies, photos
 from fairyring.app.gateway.photos import type_shown_as_it_is
 from fairyring.storage.db.schema import image as image_table
 from fairyring.storage.images import find_image
@@ -116,7 +116,7 @@ def test_a_smaller_copy_has_a_width_of_the_list_and_is_made_once(
     _, pixels = fetch(port, f"{url}?w=450")
     assert pixels.shape == (375, 500, 3)
     assert_quarters(pixels)
-    monkeypatch.setattr(photos.photo, "read", None)
+    monkeypatch.setattr(photo_copies.photo, "read", None)
     assert fetch(port, f"{url}?w=499")[1].shape == (375, 500, 3)
 
 

@@ -1,0 +1,60 @@
+"""The processes of a served project: for what people wait for, for what can wait, and for photos."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
+
+from fairyring.app.workers.worker import Worker
+
+MOST_FOR_FITS = 4
+"""Most processes for fits: the one that answers everybody keeps no more of them busy."""
+A_LITTLE_NICE, NICE = 1, 10
+"""Answering comes before computing, and what people wait for before what they do not."""
+
+Found = TypeVar("Found")
+
+
+class Run(Protocol):
+    """Calls a function with what it is given, perhaps in another process, and waits for what it returns."""
+
+    def __call__(self, work: Callable[..., Found], /, *given: Any) -> Found: ...
+
+
+def here(work: Callable[..., Found], /, *given: Any) -> Found:
+    """Calls it in this process."""
+    return work(*given)
+
+
+@dataclass(frozen=True)
+class Crew:
+    """The workers, each started when it is first asked."""
+
+    fits: Sequence[Worker]
+    """What people wait for with a cap in hand. An image has always the same one, which remembers it."""
+    patient: Worker
+    """Whole images: before exports, after predictions, against their predictions."""
+    photos: Worker
+    """Photos that no browser shows as they are, and smaller copies."""
+
+    def of_image(self, image_id: int) -> Worker:
+        """Who works out the fits of this image."""
+        return self.fits[image_id % len(self.fits)]
+
+    def close(self) -> None:
+        """Ends all of them."""
+        for worker in (*self.fits, self.patient, self.photos):
+            worker.close()
+
+
+def crew(*, apart: bool) -> Crew:
+    """As many as this machine's cores are good for; without ``apart`` all work in threads of this process."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    count = min(max(cores - 1, 1), MOST_FOR_FITS)
+    return Crew(
+        fits=[Worker(f"fits-{number}", nice=A_LITTLE_NICE, apart=apart) for number in range(count)],
+        patient=Worker("patient", nice=NICE, apart=apart),
+        photos=Worker("photos", nice=NICE, apart=apart),
+    )
