@@ -7,12 +7,14 @@ from html import escape
 from urllib.parse import quote, unquote
 
 from starlette.requests import HTTPConnection, Request
-from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, RedirectResponse, Response
 
 from fairyring.app.gateway.static_files import static_files
 
 COOKIE = "fairyring_name"
 LONGEST_NAME = 60
+LARGEST_FORM = 4096
+"""Most bytes of the form in which a name is given."""
 A_YEAR = 365 * 24 * 3600
 
 
@@ -31,6 +33,9 @@ async def name_page(request: Request) -> Response:
     """GET /name asks for the name, POST /name remembers it and leads to the editor."""
     if request.method != "POST":
         return ask_for_name(name_of(request) or "")
+    length = request.headers.get("content-length", "")
+    if not length.isdigit() or int(length) > LARGEST_FORM:
+        return PlainTextResponse("A name is a short form.", status_code=413)
     form = await request.form(max_files=0, max_fields=4)
     name = clean_name(str(form.get("name", "")))
     if name is None:

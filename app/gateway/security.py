@@ -60,15 +60,14 @@ class Guard:
         if scope["type"] not in {"http", "websocket"}:
             await self.app(scope, receive, send)
             return
+        send = _with_security_headers(send)
+        if scope["type"] == "websocket":
+            send = _refusing_in_http(send, scope, receive)
         refusal = _refusal(scope)
         if refusal is None:
-            await self.app(scope, receive, _with_security_headers(send))
-        elif scope["type"] == "websocket":
-            # Closing before accepting makes the server answer the handshake with 403.
-            await receive()
-            await send({"type": "websocket.close", "code": 1008, "reason": refusal})
+            await self.app(scope, receive, send)
         else:
-            await PlainTextResponse(refusal, status_code=403)(scope, receive, _with_security_headers(send))
+            await PlainTextResponse(refusal, status_code=403)(scope, receive, send)
 
 
 def _refusal(scope: Scope) -> str | None:
@@ -84,7 +83,7 @@ def _refusal(scope: Scope) -> str | None:
 
 def _with_security_headers(send: Send) -> Send:
     async def send_with_headers(message: Message) -> None:
-        if message["type"] == "http.response.start":
+        if message["type"] in {"http.response.start", "websocket.http.response.start"}:
             headers = MutableHeaders(scope=message)
             for name, value in SECURITY_HEADERS.items():
                 headers.setdefault(name, value)
@@ -92,3 +91,19 @@ def _with_security_headers(send: Send) -> Send:
         await send(message)
 
     return send_with_headers
+
+
+def _refusing_in_http(send: Send, scope: Scope, receive: Receive) -> Send:
+    """Answers the handshake of a socket that is closed before it was accepted as any other request."""
+    accepted = False
+
+    async def send_or_refuse(message: Message) -> None:
+        nonlocal accepted
+        accepted = accepted or message["type"] == "websocket.accept"
+        if message["type"] == "websocket.close" and not accepted:
+            reason = message.get("reason") or "There is no such socket."
+            await PlainTextResponse(reason, status_code=403)(scope, receive, send)
+        else:
+            await send(message)
+
+    return send_or_refuse

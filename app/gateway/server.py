@@ -19,9 +19,11 @@ from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
+from starlette.types import ASGIApp
 
 from fairyring.app.addresses import DOWNLOADS, PHOTOS
 from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
+from fairyring.app.gateway.bounded_sockets import sockets_of_one_server
 from fairyring.app.gateway.downloads import downloads_of
 from fairyring.app.gateway.hidden_viser import Upstream, start_viser, stop_viser
 from fairyring.app.gateway.login import name_page
@@ -29,6 +31,7 @@ from fairyring.app.gateway.photos import clear_unfinished, photos_of
 from fairyring.app.gateway.security import LOOPBACK, Guard
 from fairyring.app.gateway.socket import editor_of
 from fairyring.app.gateway.static_files import static_file
+from fairyring.app.gateway.timely_requests import TimelyRequests
 from fairyring.app.gateway.viser_client import load_viser, viser_file
 from fairyring.app.gateway.viser_page import page
 from fairyring.app.gateway.viser_relay import relay_to
@@ -46,8 +49,6 @@ from fairyring.storage.whole_folders import clear_leftovers
 log = logging.getLogger(__name__)
 
 CLOSING_WITHIN_S = 3
-FRAME_MARGIN = 1024
-"""Bytes by which a frame may pass the limit of a message, so that the editor's socket can say so itself."""
 
 
 class ServerError(FairyringError):
@@ -85,7 +86,7 @@ def serve(
 
         if door is not None:
             door.used = announce
-        server = _Server(configure(make_app(workspace, door=door), settings), announce)
+        server = _Server(configure(make_app(workspace, door=door)), announce)
         # Told to end, uvicorn shuts down and passes the signal on; by itself SIGTERM would end all here.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         server.run(sockets=[listening])
@@ -98,7 +99,7 @@ def _clear_leftovers(project: Project) -> None:
     clear_unfinished(project)
 
 
-def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
+def make_app(workspace: Workspace, *, door: Door | None) -> ASGIApp:
     """The ASGI application of a project; starts viser with its lifespan and stops it with it.
 
     ``door`` None lets every browser on this machine in.
@@ -119,7 +120,7 @@ def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
             await asyncio.to_thread(stop_viser, panels)
 
     cache_limit = workspace.settings.photo_cache_mb * 2**20
-    return Starlette(
+    app = Starlette(
         routes=[
             Route("/", page),
             WebSocketRoute("/", relay_to(upstream)),
@@ -133,9 +134,11 @@ def make_app(workspace: Workspace, *, door: Door | None) -> Starlette:
             Route("/static/{version}/{path:path}", static_file),
             Route("/viser/{version}/{name}", viser_file),
         ],
-        middleware=[Middleware(Guard), *([Middleware(OnlyWithPass, door)] if door else [])],
+        middleware=[Middleware(OnlyWithPass, door)] if door else [],
         lifespan=lifespan,
     )
+    # Around all of it, so that even an answer about an error of ours has its headers.
+    return Guard(app)
 
 
 def _listen(settings: Settings) -> socket.socket:
@@ -163,15 +166,15 @@ def _shown_host(host: str) -> str:
     return f"[{host}]" if ":" in host else "localhost" if host == "127.0.0.1" else host
 
 
-def configure(app: Starlette, settings: Settings) -> uvicorn.Config:
-    """uvicorn for the gateway: silent, no compression, frames as large as an editor's message may be."""
+def configure(app: ASGIApp) -> uvicorn.Config:
+    """uvicorn for the gateway: silent, no compression, requests and sockets within bounds."""
     return uvicorn.Config(
         app,
         log_config=None,
         access_log=False,
         server_header=False,
-        ws="websockets-sansio",
-        ws_max_size=settings.message_limit_mb * 2**20 + FRAME_MARGIN,
+        http=TimelyRequests,
+        ws=sockets_of_one_server(),
         ws_per_message_deflate=False,
         timeout_graceful_shutdown=CLOSING_WITHIN_S,
     )

@@ -12,6 +12,7 @@ import msgspec
 from msgspec import Struct
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from fairyring.app.gateway.bounded_sockets import trust
 from fairyring.app.gateway.login import name_of
 from fairyring.app.live.editing import Refits, apply_edits
 from fairyring.app.live.opening import open_image, reopen, set_status, step
@@ -45,6 +46,8 @@ NO_NAME, NO_TAB, TOO_BIG, GONE = 4401, 4403, 1009, 4410
 """Close codes: say your name first; wait for a new token; message too big; the tab is gone or lags behind."""
 HELLO_WITHIN_S = 15.0
 A_MEGABYTE = 2**20
+FRAME_MARGIN = 1024
+"""Bytes by which a frame may pass the limit of a message, so that this socket can say so itself."""
 
 _incoming = msgspec.json.Decoder(Incoming)
 _outgoing = msgspec.json.Encoder()
@@ -128,6 +131,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
     await reopen(workspace, session, hello.image)
     refits = Refits(workspace, session)
     limit = workspace.settings.message_limit_mb * A_MEGABYTE
+    trust(socket.scope, most=limit + FRAME_MARGIN)
     try:
         while True:
             text = await socket.receive_text()

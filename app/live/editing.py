@@ -17,16 +17,22 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Changed, Outcomes, Refit
 from fairyring.app.workers.worker import URGENT, WorkerError
 from fairyring.storage.journal import Derived, commit
-from fairyring.storage.records import Accepted, Conflict, Edit
+from fairyring.storage.records import Accepted, Conflict, Edit, Refused
 
 log = logging.getLogger(__name__)
 
+MOST_EDITS = 10_000
+"""Most edits of a change set: so many hold the writer for half a second."""
 A_FEW = 20
 """Change sets of more edits than this do not hold up those who drag a cap."""
 
 
 async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
     """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
+    if len(edits) > MOST_EDITS:
+        reason = f"A change set holds at most {MOST_EDITS} edits; make this in several steps."
+        session.send(Outcomes(outcomes=[Refused(edit=edit.id, reason=reason) for edit in edits]))
+        return
     session.storing = {edit.annotation for edit in edits}
     try:
         derived = await _derive(workspace, session, edits)

@@ -91,7 +91,7 @@ def served(project: Project, *, door: Door | None = None, **settings: object) ->
     """A real server in a thread."""
     listening = socket.create_server(("127.0.0.1", 0))
     given = Settings(**settings)
-    server = uvicorn.Server(configure(make_app(Workspace(project, given), door=door), given))
+    server = uvicorn.Server(configure(make_app(Workspace(project, given), door=door)))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
     thread.start()
     until(lambda: server.started, "the server")

@@ -16,7 +16,7 @@ from websockets.sync.client import connect
 from fairyring.app.gateway.hidden_viser import HEADER, Upstream, start_viser, stop_viser
 from tests.support.tab import SUBPROTOCOL, Panel, open_socket
 
-DIRTY = {"type": "GuiFormDirtyMessage", "uuid": "x" * 2**20}
+DIRTY = {"type": "GuiFormDirtyMessage", "uuid": "x" * 20_000}
 UPLOAD = {
     "type": "FileTransferPart",
     "source_component_uuid": "a",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
 import os
 from pathlib import Path
 
 import cv2
 import httpx
+import msgspec
 import numpy as np
 import PIL.Image
 import pytest
@@ -105,6 +107,29 @@ def test_what_browsers_cannot_show_is_converted(
     answer, pixels = fetch(port, added(project, file))
     assert answer.headers["content-type"] == "image/jpeg"
     assert_quarters(pixels)
+
+
+def test_a_photo_that_cannot_be_read_is_named_without_its_place(
+    port: int, project: Project, tmp_path: Path
+) -> None:
+    quarters(80, 60).save(tmp_path / "bed.tif")
+    address = added(project, tmp_path / "bed.tif")
+    broken = project.images / "bed.tif"
+    broken.write_bytes(b"II*\0" + bytes(broken.stat().st_size - 4))
+    with project.read() as connection:
+        found = find_image(connection, "bed.tif")
+    assert found is not None
+    digest = hashlib.sha256(broken.read_bytes()).hexdigest()
+    project.write(
+        lambda c: (
+            c.execute(update(image_table).where(image_table.c.id == found.id).values(sha256=digest)).rowcount
+        )
+    )
+    address = photo_address(msgspec.structs.replace(found, sha256=digest))
+    answer = httpx.get(f"http://127.0.0.1:{port}{address}", headers=ADA)
+    assert answer.status_code == 404
+    assert answer.text.startswith("bed.tif cannot be read")
+    assert str(tmp_path) not in answer.text
 
 
 def test_a_smaller_copy_has_a_width_of_the_list_and_is_made_once(

@@ -170,11 +170,31 @@ def test_nothing_outside_static_is_served(shared_port: int) -> None:
 
 
 def test_every_answer_carries_the_security_headers(shared_port: int) -> None:
-    for path in ("/", "/healthz", static_files().url("panel.css"), "/nothing"):
-        headers = get(shared_port, path).headers
+    asked = [("/", {}), ("/healthz", {}), (static_files().url("panel.css"), {}), ("/nothing", {})]
+    for path, sent in [*asked, ("/photos/1/0", {}), ("/", {"Host": "evil.example"})]:
+        headers = get(shared_port, path, **sent).headers
         assert headers["x-content-type-options"] == "nosniff"
         assert headers["x-frame-options"] == "DENY"
         assert "frame-ancestors 'none'" in headers["content-security-policy"]
+
+
+@pytest.mark.parametrize(("path", "name"), [("/", None), ("/nothing", "Ada"), ("/", "Ada")])
+def test_a_socket_that_is_refused_is_refused_like_any_other_request(
+    shared_port: int, path: str, name: str | None
+) -> None:
+    origin = "http://evil.example" if (path, name) == ("/", "Ada") else "same"
+    with pytest.raises(InvalidStatus) as refused:
+        open_socket(shared_port, path, name=name, origin=origin, subprotocols=[SUBPROTOCOL])
+    answer = refused.value.response
+    assert answer.status_code == 403
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    assert "frame-ancestors 'none'" in answer.headers["content-security-policy"]
+
+
+def test_a_form_that_is_longer_than_any_name_is_not_read(shared_port: int) -> None:
+    address = f"http://127.0.0.1:{shared_port}"
+    answer = httpx.post(f"{address}/name", data={"name": "x" * 5000}, headers={"Origin": address})
+    assert answer.status_code == 413
 
 
 def test_a_link_from_elsewhere_does_not_ask_for_the_name_again(shared_port: int) -> None:
