@@ -56,6 +56,35 @@ class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         return 32 * self.reduction
 
 
+MOST = {
+    "reduction": 8,
+    "fpn_channels": 2048,
+    "head_channels": 2048,
+    "head_convs": 16,
+    "kernel_channels": 2048,
+    "point_channels": 2048,
+    "detail_channels": 512,
+}
+"""Largest sensible values of a description; all but ``detail_channels`` are at least 1."""
+FINEST_CELL = 4
+"""Least photo pixels a side of a cell of a grid."""
+LARGEST_SIZE = 100_000
+
+
+def oddity(config: NetworkConfig) -> str | None:
+    """What of a description makes no sense, in a few words; None where all of it does."""
+    for name, most in MOST.items():
+        least = 0 if name == "detail_channels" else 1
+        if not least <= getattr(config, name) <= most:
+            return f"{name} of {getattr(config, name)}, not of {least} to {most}"
+    if not all(1 <= cells <= FRAME / FINEST_CELL for cells in config.grids):
+        return f"grids of {config.grids} cells"
+    ranges = config.scale_ranges
+    if len(ranges) != LEVELS or not all(0 <= low <= high <= LARGEST_SIZE for low, high in ranges):
+        return f"scale ranges of {ranges}"
+    return None
+
+
 SIZES: dict[str, NetworkConfig] = {
     "lite0": NetworkConfig(),
     "r18": NetworkConfig(

@@ -19,10 +19,12 @@ from safetensors.torch import save
 from torch import Tensor
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.config import NetworkConfig, oddity
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.whole_files import written_whole
 
+KINDS = (torch.float16, torch.float32, torch.int64)
+"""The kinds of numbers that weights are made of."""
 FORMAT = "fairyring-pr-solov2-1"
 
 
@@ -82,11 +84,15 @@ def load_weights(path: Path) -> Weights:
         ) from error
     if metadata.get("format") != FORMAT:
         raise WeightsError(f"{path} holds no network of Fairyring's; give weights that fairyring train made.")
+    _check_values(path, state)
     if metadata.get("digest") != digest_of(state, metadata.get("network", "")):
         raise WeightsError(f"{path} has been changed or damaged; copy it again from where it came.")
     try:
         config = msgspec.json.decode(metadata["network"], type=NetworkConfig)
         card = msgspec.json.decode(metadata.get("card", "{}"), type=dict[str, Any])
+        if odd := oddity(config):
+            raise WeightsError(f"{path} describes a network that makes no sense: {odd}.")
+        _check_shapes(config, state)
         network = PRSOLOv2(config)
         network.load_state_dict({key: value.float() for key, value in state.items()})
     except (msgspec.MsgspecError, KeyError, RuntimeError, ValueError, TypeError) as error:
@@ -94,6 +100,25 @@ def load_weights(path: Path) -> Weights:
             f"{path} holds another network than it says; it was made by another version of Fairyring."
         ) from error
     return Weights(network=network.eval(), digest=metadata["digest"], card=card)
+
+
+def _check_values(path: Path, state: Mapping[str, Tensor]) -> None:
+    for key, value in state.items():
+        if value.dtype not in KINDS:
+            raise WeightsError(f"{path} holds numbers of another kind in {key}; give weights that are whole.")
+        if not torch.isfinite(value).all():
+            raise WeightsError(f"{path} holds values in {key} that are not finite; train again.")
+
+
+def _check_shapes(config: NetworkConfig, state: Mapping[str, Tensor]) -> None:
+    """Compares with a network that takes no memory: a description costs nothing to write.
+
+    Raises ValueError.
+    """
+    with torch.device("meta"):
+        wanted = {key: value.shape for key, value in PRSOLOv2(config).state_dict().items()}
+    if wanted != {key: value.shape for key, value in state.items()}:
+        raise ValueError("the tensors have other names or shapes")
 
 
 def digest_of(state: Mapping[str, Tensor], network: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import pickle
+import re
 from pathlib import Path
 
 import msgspec
@@ -175,6 +176,70 @@ def test_weights_of_another_network_than_the_file_says_are_refused(
     path = rewritten(saved, tmp_path / "other.safetensors", network=told, digest=digest)
     with pytest.raises(WeightsError, match="another network than it says"):
         load_weights(path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "what"),
+    [
+        ({"fpn_channels": 0}, "fpn_channels of 0"),
+        ({"head_channels": 10**9}, "head_channels of 1000000000"),
+        ({"head_convs": -1}, "head_convs of -1"),
+        ({"reduction": 10**12}, "reduction of"),
+        ({"detail_channels": -4}, "detail_channels of -4"),
+        ({"grids": [80, 64, 32, 16, 10**6]}, "grids of"),
+        ({"grids": [80, 64, 0, 16, 12]}, "grids of"),
+        ({"scale_ranges": [[1, 2]]}, "scale ranges of"),
+        ({"scale_ranges": [[5, 2]] * 5}, "scale ranges of"),
+    ],
+)
+def test_a_network_that_makes_no_sense_is_not_built(
+    saved: Path, tmp_path: Path, changes: dict[str, object], what: str
+) -> None:
+    told = msgspec.json.encode(msgspec.to_builtins(TINY) | changes).decode()
+    path = described_as(told, saved, tmp_path)
+    with pytest.raises(WeightsError, match=f"described.safetensors .* makes no sense: {what}"):
+        load_weights(path)
+
+
+def test_a_large_network_with_small_tensors_is_not_built(saved: Path, tmp_path: Path) -> None:
+    large = {"head_channels": 2048, "head_convs": 16, "fpn_channels": 2048}
+    told = msgspec.json.encode(msgspec.to_builtins(TINY) | large).decode()
+    with pytest.raises(WeightsError, match="another network than it says"):
+        load_weights(described_as(told, saved, tmp_path))
+
+
+def described_as(told: str, saved: Path, folder: Path) -> Path:
+    """The tensors of a file, described otherwise, under a digest that is right."""
+    with safe_open(saved, framework="pt") as file:
+        state = {key: file.get_tensor(key) for key in list(file.keys())}
+    digest = digest_of(state, told)
+    return rewritten(saved, folder / "described.safetensors", network=told, digest=digest)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf")])
+def test_values_that_are_no_numbers_are_not_loaded(saved: Path, tmp_path: Path, value: float) -> None:
+    with safe_open(saved, framework="pt") as file:
+        state = {key: file.get_tensor(key) for key in list(file.keys())}
+    key = next(key for key, tensor in state.items() if tensor.is_floating_point() and tensor.numel() > 1)
+    state[key].view(-1)[1] = value
+    metadata = metadata_of(saved)
+    metadata["digest"] = digest_of(state, metadata["network"])
+    save_file(state, tmp_path / "odd.safetensors", metadata=metadata)
+    with pytest.raises(WeightsError, match=f"{re.escape(key)} that are not finite"):
+        load_weights(tmp_path / "odd.safetensors")
+
+
+@pytest.mark.parametrize("kind", [torch.bfloat16, torch.float8_e4m3fn, torch.complex64, torch.bool])
+def test_numbers_of_another_kind_are_refused(saved: Path, tmp_path: Path, kind: torch.dtype) -> None:
+    save_file({"x": torch.zeros(4).to(kind)}, tmp_path / "odd.safetensors", metadata=metadata_of(saved))
+    with pytest.raises(WeightsError, match="another kind"):
+        load_weights(tmp_path / "odd.safetensors")
+
+
+def test_a_card_of_endless_depth_is_refused(saved: Path, tmp_path: Path) -> None:
+    deep = '{"a":' + "[" * 100_000 + "]" * 100_000 + "}"
+    with pytest.raises(WeightsError):
+        load_weights(rewritten(saved, tmp_path / "deep.safetensors", card=deep))
 
 
 def test_weights_of_another_format_are_refused(saved: Path, tmp_path: Path) -> None:
