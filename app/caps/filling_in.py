@@ -11,8 +11,8 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.fitting import Fitting, known_statistics
 from fairyring.app.caps.image_caps import caps_of
-from fairyring.app.caps.whole_outlines import fit_of_mark
 from fairyring.app.workers.crew import Run, here
+from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.geometry.shapes import Fit
 from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
@@ -93,7 +93,7 @@ def _missing(
     if annotations:
         image = replace(image, statistics=of_all.statistics)
     marks = {uid: mark for uid in lacking.annotations if (mark := caps.annotations[uid].cap.mark) is not None}
-    annotations |= {uid: fit_of_mark(mark).fit for uid, mark in marks.items()}
+    annotations |= {uid: reconstruction_of_mark(mark).fit for uid, mark in marks.items()}
     return _Found(
         annotations={(uid, caps.annotations[uid].revision): fit for uid, fit in annotations.items()},
         predictions=new_predictions,

@@ -14,17 +14,17 @@ import msgspec
 
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
-from fairyring.model.contour.marks import whole_of_mark
+from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.contour.result import Reconstruction
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.outline_checks import check_mark
-from fairyring.model.geometry.shapes import Circle, Fit, GeometryError, Polygon, fit_of_shape
+from fairyring.model.geometry.shapes import Fit, GeometryError
 from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit, Image, Mark, Outline
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Outline
 
 TELLING = 0.005
 """A stored centre that a new fit would move by less than this, pixels, is as good as new."""
@@ -38,7 +38,9 @@ def reconstruction_of(uid: str, cap: Cap, caps: ImageCaps) -> Reconstruction:
     """
     try:
         if cap.mark is not None:
-            return fit_of_mark(check_mark(cap.mark, width=caps.image.width, height=caps.image.height))
+            return reconstruction_of_mark(
+                check_mark(cap.mark, width=caps.image.width, height=caps.image.height)
+            )
         outline = caps.checked_outline(uid, cap)
     except GeometryError as error:
         return Reconstruction(fit=Fit(refusal=str(error)))
@@ -107,18 +109,6 @@ def _derived(edit: Edit, outline: Outline | None, fit: Fit, image: Image) -> Der
         return Derived(edit=edit, fit=fit, checked=check_cap(cap, width=image.width, height=image.height))
     except FairyringError as error:
         return Derived(edit=edit, unfit=str(error))
-
-
-def fit_of_mark(mark: Mark) -> Reconstruction:
-    """The whole outline of a checked mark; it needs no neighbours."""
-    shape = whole_of_mark(mark)
-    if shape is None:
-        refusal = "The mark determines no outline; place more points around the cap."
-        return Reconstruction(fit=Fit(refusal=refusal))
-    if isinstance(mark, Polygon):
-        return Reconstruction(fit=fit_of_shape(shape), why="ellipse fitted to the marked polygon")
-    kind = "circle" if isinstance(mark, Circle) else "ellipse"
-    return Reconstruction(fit=fit_of_shape(shape), why=f"the marked {kind}")
 
 
 def _stored(uid: str, outline: Outline, caps: ImageCaps) -> Fit | None:

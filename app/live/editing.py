@@ -43,6 +43,9 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
         accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
         session.take_in(accepted)
         session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
+        for said in {each.fit.refusal for each in derived if each.edit.cap and each.edit.cap.mark}:
+            if said is not None:
+                session.notify(said, "warning")
         if told := await anyio.to_thread.run_sync(repairs_told, edits, outcomes):
             session.notify(told)
     finally:

@@ -48,6 +48,10 @@ REACH = 4
 """How many image widths and heights a point may lie outside the image."""
 LEAST_AREA = 1e-3
 """A polygon of less area than this, px², counts as having none."""
+LEAST_MARK = 1.0
+"""A marked polygon of less area than this, px², marks no cap."""
+LEAST_RADIUS = 0.25
+"""Nor does a circle or an ellipse with a smaller radius, pixels."""
 SPECK = 0.005
 """Share of what a polygon that crosses itself covers, up to which a lobe or a hole is the pen's slip."""
 ROUNDING = 1e-6
@@ -108,21 +112,29 @@ def usable_outline(outline: Any, *, width: int, height: int) -> Outline:
 
 
 def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
-    """The mark, a polygon without repeated vertices; GeometryError where it makes no sense in the image."""
+    """The mark, a polygon without repeated vertices.
+
+    Raises GeometryError for what is not finite, has no size to speak of, is far larger than the image or
+    lies beside it, and for a polygon that crosses itself.
+    """
     if isinstance(mark, Polygon):
         points = _vertices(mark.points, width, height)
         if self_contact(points).crossings:
             raise GeometryError("The polygon crosses itself.")
-        if abs(signed_area(points)) < LEAST_AREA:
+        if abs(signed_area(points)) < LEAST_MARK:
             raise GeometryError("The polygon has no area.")
+        _check_meets(*points.min(axis=0), *points.max(axis=0), width=width, height=height)
         return Polygon(part_of_points(points))
     figures = astuple(mark)
     if any(type(figure) not in (int, float) or not math.isfinite(figure) for figure in figures):
         raise GeometryError("A centre, a radius or an angle is not a finite number.")
     check_centre((mark.cx, mark.cy), width=width, height=height)
     radii = (mark.r,) if isinstance(mark, Circle) else (mark.a, mark.b)
-    if min(radii) <= 0 or max(radii) > REACH * max(width, height):
-        raise GeometryError("A radius must be more than 0 and not many times the image.")
+    if min(radii) < LEAST_RADIUS or max(radii) > REACH * max(width, height):
+        raise GeometryError(f"A radius must be at least {LEAST_RADIUS} px and not many times the image.")
+    reach = max(radii)
+    left, top, right, bottom = mark.cx - reach, mark.cy - reach, mark.cx + reach, mark.cy + reach
+    _check_meets(left, top, right, bottom, width=width, height=height)
     return mark if isinstance(mark, Circle) else canonical_ellipse(*figures)
 
 
@@ -132,6 +144,12 @@ def check_centre(centre: Centre, *, width: int, height: int) -> Centre:
     if abs(x - width / 2) > (REACH + 0.5) * width or abs(y - height / 2) > (REACH + 0.5) * height:
         raise GeometryError(f"A centre lies far outside the image of {width} × {height} pixels.")
     return centre
+
+
+def _check_meets(left: float, top: float, right: float, bottom: float, *, width: int, height: int) -> None:
+    """A mark may go on beyond the image, but what it is of must be on it."""
+    if right <= 0 or bottom <= 0 or left >= width or top >= height:
+        raise GeometryError(f"The mark lies beside the image of {width} × {height} pixels.")
 
 
 @dataclass

@@ -125,10 +125,10 @@ def test_a_refit_names_the_piece_that_a_neighbour_hides() -> None:
     assert np.hypot(*(seam - (90, 60)).T) == pytest.approx(24, abs=1.5)
 
 
-def test_a_mark_has_no_arcs_and_no_doubt_about_its_centre() -> None:
+def test_a_mark_has_no_arcs_and_the_deviation_of_a_hand() -> None:
     cap = Cap(visible=SQUARE, mark=Circle(50, 40, 10))
     live = refit(image_with(), Refit(seq=1, image=1, annotation="a", cap=cap))
-    assert (live.arcs, live.fit.centre_sd, live.note) == ([], None, "the marked circle")
+    assert (live.arcs, live.fit.centre_sd, live.note) == ([], (0.4, 0.4), "the marked circle")
 
 
 def test_a_refit_of_a_wild_outline_says_why_there_is_none() -> None:

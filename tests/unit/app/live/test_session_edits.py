@@ -5,8 +5,10 @@ from __future__ import annotations
 import sqlite3
 import time
 
+import numpy as np
 import pytest
 
+from fairyring.app.live import editing
 from fairyring.app.protocol import (
     Changed,
     Edits,
@@ -14,7 +16,7 @@ from fairyring.app.protocol import (
     Outcomes,
     Show,
 )
-from fairyring.model.geometry.shapes import Circle
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted, Cap, Conflict, Edit, Refused
 from tests.support.tab import Tab, new_cap
@@ -129,3 +131,24 @@ def test_thirty_changes_in_a_row_are_all_answered_in_order(port: int) -> None:
         revisions = [tab.expect(Outcomes).outcomes[0].annotation.revision for _ in range(30)]
         assert revisions == list(range(1, 31))
         assert time.monotonic() - started < 10
+
+
+def test_who_marks_a_cap_with_points_that_determine_nothing_is_told_so(port: int) -> None:
+    angles = np.linspace(0, 0.8, 7)
+    arc = np.stack([60 + 50 * np.cos(angles), 50 + 50 * np.sin(angles)], axis=1).ravel().tolist()
+    with Tab(port, image=2) as tab:
+        (outcome,) = tab.edit(new_cap(2, mark=Polygon(arc))).outcomes
+        assert isinstance(outcome, Accepted)
+        assert (outcome.annotation.cap.mark, outcome.annotation.centre) == (Polygon(arc), None)
+        assert "Place a circle (C)" in tab.expect(Notice).text
+
+
+def test_a_change_set_of_too_many_edits_is_refused_edit_by_edit(
+    port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(editing, "MOST_EDITS", 2)
+    with Tab(port, image=2) as tab:
+        found = tab.edit(*(new_cap(2, uid=f"c{n}", edit=f"e{n}") for n in range(3))).outcomes
+        assert [type(outcome) for outcome in found] == [Refused] * 3
+        assert "at most 2 edits" in found[0].reason
+        assert isinstance(tab.edit(new_cap(2)).outcomes[0], Accepted)

@@ -97,10 +97,12 @@ def test_what_is_visible_ends_where_the_photo_does_and_the_whole_cap_need_not(be
     assert (marked["circle"], marked["segmentation_of"]) == ([100, 40, 20], "mark")
 
 
-def test_a_mark_beside_the_photo_is_still_written(beds, out):
-    store(beds, Cap(visible=[], mark=Circle(150, 40, 10)))
+def test_a_mark_that_covers_no_pixel_of_the_photo_is_still_written(beds, out):
+    store(beds, Cap(visible=[], mark=Circle(109.9, 40, 10)))
     (annotation,) = export(beds, out)["annotations"]
-    assert annotation["bbox"] == pytest.approx([140, 30, 20, 20], abs=0.2)
+    left, top, width, height = annotation["bbox"]
+    assert (left, left + width) == pytest.approx((99.9, 100), abs=1e-3)
+    assert 38 < top < 40 < top + height < 42
 
 
 def test_what_other_programs_said_of_its_geometry_goes_with_the_first_edit(beds, out, tmp_path, write_coco):
