@@ -10,7 +10,17 @@ from typing import Literal
 from msgspec import Struct, field
 
 from fairyring.model.geometry.shapes import Fit
-from fairyring.storage.records import Annotation, Cap, Edit, ImageContents, Outcome, Prediction, Status
+from fairyring.storage.image_history import Reversal, Way
+from fairyring.storage.records import (
+    Annotation,
+    Cap,
+    Edit,
+    ImageContents,
+    Outcome,
+    Prediction,
+    Status,
+    StatusEdit,
+)
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):
@@ -39,9 +49,10 @@ class Step(FromEditor, frozen=True, tag="step"):
 
 
 class Edits(FromEditor, frozen=True, tag="edits"):
-    """One change set, stored in one transaction; each edit gets an outcome of its own."""
+    """A change set or a piece of one, stored in one transaction; each edit gets an outcome of its own."""
 
     edits: list[Edit]
+    statuses: list[StatusEdit] = field(default_factory=list)
 
 
 class Refit(FromEditor, frozen=True, tag="refit"):
@@ -60,11 +71,13 @@ class Select(FromEditor, frozen=True, tag="select"):
     prediction: int | None = None
 
 
-class SetStatus(FromEditor, frozen=True, tag="status"):
-    """Says that an image is new, annotated or approved."""
+class Recall(FromEditor, frozen=True, tag="recall"):
+    """Asks the journal what it takes to take something back."""
 
     image: int
-    status: Status
+    way: Way = "undo"
+    change_set: int | None = None
+    """One of the history of the image; None for what this person did last, or undid last."""
 
 
 class Saving(FromEditor, frozen=True, tag="saving"):
@@ -79,7 +92,7 @@ class Toggle(FromEditor, frozen=True, tag="toggle"):
     layer: str
 
 
-Incoming = Hello | Open | Step | Edits | Refit | Select | SetStatus | Saving | Toggle
+Incoming = Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle
 
 
 class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -112,6 +125,28 @@ class Outcomes(FromServer, frozen=True, tag="outcomes"):
     """What became of edits this tab sent."""
 
     outcomes: list[Outcome]
+
+
+class Working(FromServer, frozen=True, tag="working"):
+    """Edits of this tab are being stored; said every few seconds for as long as that takes."""
+
+
+class StatusChanged(FromServer, frozen=True, tag="status"):
+    """The status of the image on screen is another now."""
+
+    image: int
+    status: Status
+    user: str
+
+
+class Recalled(FromServer, frozen=True, tag="recalled"):
+    """Answers Recall."""
+
+    image: int
+    way: Way
+    change_set: int | None
+    reversal: Reversal | None
+    """None where there is nothing to take back."""
 
 
 class Changed(FromServer, frozen=True, tag="changed"):
@@ -171,4 +206,17 @@ class Notice(FromServer, frozen=True, tag="notice"):
     level: Literal["info", "warning", "error"] = "info"
 
 
-Outgoing = Welcome | Show | Outcomes | Changed | Predicted | Fitted | Layers | Command | Notice
+Outgoing = (
+    Welcome
+    | Show
+    | Outcomes
+    | Working
+    | StatusChanged
+    | Recalled
+    | Changed
+    | Predicted
+    | Fitted
+    | Layers
+    | Command
+    | Notice
+)

@@ -7,14 +7,11 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from msgspec import Struct
-from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
+from sqlalchemy import ColumnElement, Connection, and_, func, or_, select, update
 
-from fairyring.storage.cap_validity import check_name
-from fairyring.storage.db.clock import now
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
-from fairyring.storage.db.schema import comparison, image, status_change
-from fairyring.storage.errors import StoreError
-from fairyring.storage.records import STATUSES, Image, Status
+from fairyring.storage.db.schema import comparison, image
+from fairyring.storage.records import Image, Status
 
 Sort = Literal["name", "added", "caps", "cdr"]
 
@@ -123,26 +120,6 @@ def find_image(connection: Connection, file_name: str) -> Image | None:
     """The image of this base name; None where there is none."""
     row = connection.execute(select(image).where(image.c.file_name == file_name)).first()
     return None if row is None else image_of(row)
-
-
-def set_status(connection: Connection, image_id: int, status: Status, *, user: str) -> Image:
-    """Sets the status and journals who did it and when; returns the image as it is now.
-
-    Raises:
-        StoreError: the project has no such image, or there is no such status.
-    """
-    check_name(user, "name of a user")
-    if status not in STATUSES:
-        raise StoreError(f"The status of an image is one of {', '.join(STATUSES)}.")
-    before = require_image(connection, image_id).status
-    if before != status:
-        connection.execute(update(image).where(image.c.id == image_id).values(status=status))
-        connection.execute(
-            insert(status_change).values(
-                image=image_id, before=before, after=status, user=user, made_at=now()
-            )
-        )
-    return get_image(connection, image_id)
 
 
 def keep_statistics(connection: Connection, image_id: int, statistics: Mapping[str, float]) -> None:

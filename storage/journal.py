@@ -12,13 +12,15 @@ from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import check_cap, check_name
+from fairyring.storage.change_sets import ChangeSets, check_change_set
 from fairyring.storage.db import schema
 from fairyring.storage.db.counters import recount
 from fairyring.storage.db.rows import AnyRow, ensure_category, require_image
 from fairyring.storage.errors import StoreError
-from fairyring.storage.ledger import Ledger, open_ledger
+from fairyring.storage.ledger import Ledger, open_ledger, stored_annotations, stored_digests
 from fairyring.storage.project import Project
-from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused
+from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, StatusEdit
+from fairyring.storage.statuses import commit_status, follow_edits
 
 
 class Derived(Struct, frozen=True, kw_only=True):
@@ -46,12 +48,14 @@ class Entry(Struct, frozen=True, kw_only=True):
     """UTC, ISO 8601."""
 
 
-def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Outcome]:
-    """Stores a change set in one transaction; on disk when this returns.
+def commit(
+    project: Project, edits: Sequence[Derived], *, statuses: Sequence[StatusEdit] = (), user: str
+) -> list[Outcome]:
+    """Stores a change set, or a piece of one, in one transaction; on disk when this returns.
 
     Caps are checked and repaired before it begins, so that nobody else waits for that. Each edit has an
-    outcome of its own, in order: a conflict or a refusal does not keep the others out.
-    An edit sent before is accepted again, with the annotation as it is now.
+    outcome of its own, in order, those of ``statuses`` last: a conflict or a refusal does not keep the others
+    out. An edit sent before is accepted again, with the annotation as it is now.
 
     Raises:
         StoreError: the database cannot be written, or ``user`` is no name.
@@ -60,9 +64,29 @@ def commit(project: Project, edits: Sequence[Derived], *, user: str) -> list[Out
     try:
         project.require_writable()
     except StoreError as error:
-        return [Refused(edit=derived.edit.id, reason=str(error)) for derived in edits]
+        numbers = [*(derived.edit.id for derived in edits), *(made.id for made in statuses)]
+        return [Refused(edit=number, reason=str(error)) for number in numbers]
+    if not edits and not statuses:
+        return []
     checked = _check_caps(project, edits)
-    return project.write(lambda connection: _commit_all(connection, edits, checked, user=user))
+
+    def work(connection: Connection) -> list[Outcome]:
+        outcomes = _commit_all(connection, edits, checked, user=user)
+        sets = ChangeSets(connection, user=user)
+        return outcomes + [commit_status(connection, made, sets, user=user) for made in statuses]
+
+    return project.write(work)
+
+
+def known_outcomes(connection: Connection, edits: Sequence[Edit]) -> dict[str, Accepted]:
+    """What was answered to those of these edits that are stored already, by edit id.
+
+    So an edit that is sent again costs no more than a look.
+    """
+    known = stored_digests(connection, edits)
+    again = [edit for edit in edits if known.get(edit.id) == digest_of(edit)]
+    now = stored_annotations(connection, (edit.annotation for edit in again))
+    return {edit.id: Accepted(edit=edit.id, annotation=now[edit.annotation]) for edit in again}
 
 
 def history(connection: Connection, uid: str) -> list[Entry]:
@@ -119,13 +143,15 @@ def _commit_all(
     *,
     user: str,
 ) -> list[Outcome]:
-    ledger = open_ledger(connection, [derived.edit for derived in edits])
+    ledger = open_ledger(connection, [derived.edit for derived in edits], user=user)
     outcomes = [
         _commit_one(connection, ledger, derived, cap, user=user)
         for derived, cap in zip(edits, checked, strict=True)
     ]
-    ledger.write(connection)
-    recount(connection, (o.annotation.image for o in outcomes if isinstance(o, Accepted)))
+    entered = ledger.write(connection)
+    recount(connection, (image for image, _ in entered))
+    for (image, number), takes_back in entered.items():
+        follow_edits(connection, image, number, takes_back=takes_back, user=user)
     return outcomes
 
 
@@ -141,6 +167,7 @@ def _commit_one(
     try:
         check_name(edit.id, "number of an edit")
         check_name(edit.annotation, "number of an annotation")
+        check_change_set(edit)
         digest, current = digest_of(edit), ledger.annotations.get(edit.annotation)
         if _was_sent_before(ledger, edit, digest):
             assert current is not None, "the journal names annotations that exist"
@@ -151,6 +178,8 @@ def _commit_one(
             raise StoreError("There is no such annotation; reload the image.")
         if current is not None and not _is_made_on(edit, current):
             return Conflict(edit=edit.id, theirs=current, user=ledger.editors[current.uid])
+        if (other := _taken_up_by(ledger, edit, current)) is not None:
+            return Conflict(edit=edit.id, theirs=other, user=ledger.editors[other.uid])
         cap = _fitting(connection, ledger, edit, checked)
     except FairyringError as error:
         return Refused(edit=edit.id, reason=str(error))
@@ -168,6 +197,14 @@ def _was_sent_before(ledger: Ledger, edit: Edit, digest: str) -> bool:
 def _is_made_on(edit: Edit, current: Annotation) -> bool:
     """Whether an edit was made on the annotation as it is now; only who saw a deletion can undo it."""
     return edit.base == current.revision and not (current.deleted and edit.cap is None)
+
+
+def _taken_up_by(ledger: Ledger, edit: Edit, current: Annotation | None) -> Annotation | None:
+    """The annotation that somebody else made of the prediction which this edit takes up."""
+    if edit.cap is None or edit.cap.prediction is None:
+        return None
+    has_it = current is not None and not current.deleted and current.cap.prediction == edit.cap.prediction
+    return None if has_it else ledger.holder_of(edit.cap.prediction, besides=edit.annotation)
 
 
 def _fitting(

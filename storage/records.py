@@ -99,7 +99,7 @@ class Run(Struct, frozen=True, kw_only=True):
     settings: dict[str, Any] = field(default_factory=dict)
 
 
-class Edit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Edit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
     """One change of one annotation, as the browser sends it."""
 
     id: str
@@ -110,6 +110,23 @@ class Edit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The revision it was made on; 0 makes a new annotation."""
     cap: Cap | None
     """The whole cap as it should be; None deletes it."""
+    change_set: str = ""
+    """The change set it belongs to, chosen by the browser; empty for one of those that are stored with it."""
+    takes_back: str = ""
+    """The change set that its own takes back: an undo names what was done, a redo the undo."""
+
+
+class StatusEdit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A change of what people say of an image, as the browser sends it."""
+
+    id: str
+    """Chosen by the browser: the same id a second time changes nothing."""
+    image: int
+    before: Status
+    """The status it was made on."""
+    after: Status
+    change_set: str = ""
+    takes_back: str = ""
 
 
 class Accepted(Struct, frozen=True, kw_only=True, tag="accepted", tag_field="outcome"):
@@ -135,7 +152,16 @@ class Refused(Struct, frozen=True, kw_only=True, tag="refused", tag_field="outco
     reason: str
 
 
-Outcome = Accepted | Conflict | Refused
+class StatusStored(Struct, frozen=True, kw_only=True, tag="status", tag_field="outcome"):
+    """The change of status is on disk (now, or when it was first sent)."""
+
+    edit: str
+    image: int
+    status: Status
+    """As it is now."""
+
+
+Outcome = Accepted | Conflict | Refused | StatusStored
 
 
 class ImageContents(Struct, frozen=True, kw_only=True):

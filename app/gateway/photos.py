@@ -30,6 +30,7 @@ log = logging.getLogger(__name__)
 FOR_EVER = "private, max-age=31536000, immutable"
 WIDTHS = (160, 500, 1000, 2000, 4000)
 """Widths a photo is scaled down to; others are rounded up, so that the cache cannot be flooded."""
+COPY_TYPE = "image/jpeg"
 DIRECT_FORMATS = frozenset({"JPEG", "PNG", "WEBP"})
 DIRECT_MODES = frozenset({"1", "L", "P", "RGB", "RGBA"})
 LARGEST_ID = 2**63 - 1
@@ -115,7 +116,7 @@ def _file_for(project: Project, image: Image, width: int | None, copies: _Copies
     if not made.is_file():
         copies.run(photo_copy, source, made, image, width)
         make_room(copies.folder, copies.limit)
-    return made, PIL.Image.MIME["JPEG"]
+    return made, COPY_TYPE
 
 
 def type_shown_as_it_is(source: Path) -> str | None:

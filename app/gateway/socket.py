@@ -15,7 +15,8 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from fairyring.app.gateway.bounded_sockets import trust
 from fairyring.app.gateway.login import name_of
 from fairyring.app.live.editing import Refits, apply_edits
-from fairyring.app.live.opening import open_image, reopen, set_status, step
+from fairyring.app.live.opening import open_image, reopen, step
+from fairyring.app.live.recalling import recall
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import tell_errors
@@ -29,10 +30,11 @@ from fairyring.app.protocol import (
     Open,
     Outcomes,
     Predicted,
+    Recall,
+    Recalled,
     Refit,
     Saving,
     Select,
-    SetStatus,
     Show,
     Step,
     Toggle,
@@ -117,7 +119,7 @@ async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> Non
 
 async def _encode(message: FromServer) -> str:
     """A message as JSON; encoded in a thread where it may be large."""
-    if isinstance(message, Show | Predicted):
+    if isinstance(message, Show | Predicted | Recalled):
         return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
     return _outgoing.encode(message).decode()
 
@@ -157,8 +159,8 @@ async def _handle(workspace: Workspace, session: Session, refits: Refits, text: 
 
 async def _carry_out(workspace: Workspace, session: Session, refits: Refits, message: Incoming) -> None:
     match message:
-        case Edits(edits=edits):
-            await apply_edits(workspace, session, edits)
+        case Edits():
+            await apply_edits(workspace, session, message)
         case Refit():
             refits.ask(message)
         case Open(image=image, select=select):
@@ -168,8 +170,8 @@ async def _carry_out(workspace: Workspace, session: Session, refits: Refits, mes
         case Select(annotation=annotation, prediction=prediction):
             session.selection = Selection(annotation, prediction)
             session.refresh("cap")
-        case SetStatus(image=image, status=status):
-            await set_status(workspace, session, image, status)
+        case Recall():
+            await recall(workspace, session, message)
         case Saving(waiting=waiting):
             session.waiting = waiting
             session.refresh("status")
@@ -187,15 +189,17 @@ class _Unreadable(Struct):
     """The ids of an unreadable change set, to refuse its edits one by one."""
 
     edits: list[_Named] = []
+    statuses: list[_Named] = []
 
 
 def _refuse(session: Session, text: str, *, reason: str) -> None:
     """Answers a message that cannot be read, so that the browser does not send its edits for ever."""
     sentence = f"The server cannot read this: {reason}."
     try:
-        edits = msgspec.json.decode(text, type=_Unreadable).edits
+        message = msgspec.json.decode(text, type=_Unreadable)
     except msgspec.DecodeError:
-        edits = []
+        message = _Unreadable()
+    edits = message.edits + message.statuses
     if edits:
         session.send(Outcomes(outcomes=[Refused(edit=edit.id, reason=sentence) for edit in edits]))
     else:

@@ -8,16 +8,19 @@ from collections.abc import Sequence
 from functools import partial
 
 import anyio.to_thread
+from sqlalchemy import Connection
 
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.whole_outlines import derived_of, load_caps, refit
 from fairyring.app.live.repairs import repairs_told
 from fairyring.app.live.session import Session
+from fairyring.app.live.statuses import announce_statuses
 from fairyring.app.live.workspace import Workspace
-from fairyring.app.protocol import Changed, Outcomes, Refit
+from fairyring.app.protocol import Changed, Edits, Outcomes, Refit, Working
 from fairyring.app.workers.worker import URGENT, WorkerError
-from fairyring.storage.journal import Derived, commit
-from fairyring.storage.records import Accepted, Conflict, Edit, Refused
+from fairyring.storage.images import get_image
+from fairyring.storage.journal import Derived, commit, known_outcomes
+from fairyring.storage.records import Accepted, Conflict, Edit, Image, Outcome, Refused, StatusStored
 
 log = logging.getLogger(__name__)
 
@@ -25,30 +28,35 @@ MOST_EDITS = 10_000
 """Most edits of a change set: so many hold the writer for half a second."""
 A_FEW = 20
 """Change sets of more edits than this do not hold up those who drag a cap."""
+SAY_WORKING_S = 3.0
+"""A tab gives up on a connection that says nothing for several times as long."""
 
 
-async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> None:
-    """Stores a change set; the acknowledgement goes out once the transaction is on disk."""
-    if len(edits) > MOST_EDITS:
+async def apply_edits(workspace: Workspace, session: Session, message: Edits) -> None:
+    """Stores a change set or a piece of one; the acknowledgement goes out once the transaction is on disk."""
+    if len(message.edits) + len(message.statuses) > MOST_EDITS:
         reason = f"A change set holds at most {MOST_EDITS} edits; make this in several steps."
-        session.send(Outcomes(outcomes=[Refused(edit=edit.id, reason=reason) for edit in edits]))
+        refused = [Refused(edit=edit.id, reason=reason) for edit in [*message.edits, *message.statuses]]
+        session.send(Outcomes(outcomes=[*refused]))
         return
-    session.storing = {edit.annotation for edit in edits}
+    session.storing = {edit.annotation for edit in message.edits}
+    working = asyncio.create_task(_say_working(session))
     try:
-        derived = await _derive(workspace, session, edits)
-        outcomes = await anyio.to_thread.run_sync(
-            partial(commit, workspace.project, derived, user=session.user)
-        )
-        session.send(Outcomes(outcomes=outcomes))
+        outcomes, derived = await _store(workspace, session, message)
         accepted = [outcome.annotation for outcome in outcomes if isinstance(outcome, Accepted)]
+        # Before the outcomes: a tab that hears of both never shows the status as it was.
+        images = await workspace.read(partial(_images_of, outcomes=outcomes))
+        announce_statuses(workspace, images, user=session.user)
+        session.send(Outcomes(outcomes=outcomes))
         session.take_in(accepted)
         session.take_in([outcome.theirs for outcome in outcomes if isinstance(outcome, Conflict)])
         for said in {each.fit.refusal for each in derived if each.edit.cap and each.edit.cap.mark}:
             if said is not None:
                 session.notify(said, "warning")
-        if told := await anyio.to_thread.run_sync(repairs_told, edits, outcomes):
+        if told := await anyio.to_thread.run_sync(repairs_told, message.edits, outcomes):
             session.notify(told)
     finally:
+        working.cancel()
         session.storing = set()
     for image_id in {annotation.image for annotation in accepted}:
         workspace.reviewer.touch(image_id)
@@ -56,8 +64,34 @@ async def apply_edits(workspace: Workspace, session: Session, edits: Sequence[Ed
         for tab in workspace.tabs.others_on(image_id, besides=session):
             tab.take_in(changed)
             tab.send(Changed(image=image_id, annotations=changed, user=session.user))
-            tab.refresh("cap")
-    session.refresh("cap", "status")
+            tab.refresh("cap", "history")
+    session.refresh("cap", "status", "history")
+
+
+async def _say_working(session: Session) -> None:
+    """Tells the tab again and again that it has been heard, so that it waits."""
+    while True:
+        await asyncio.sleep(SAY_WORKING_S)
+        session.send(Working())
+
+
+async def _store(
+    workspace: Workspace, session: Session, message: Edits
+) -> tuple[list[Outcome], list[Derived]]:
+    """Answers what is stored already at once, then works out and stores the rest; also returns that."""
+    answered = await workspace.read(partial(known_outcomes, edits=message.edits))
+    new = [edit for edit in message.edits if edit.id not in answered]
+    derived = await _derive(workspace, session, new)
+    store = partial(commit, workspace.project, derived, statuses=message.statuses, user=session.user)
+    fresh = iter(await anyio.to_thread.run_sync(store))
+    return [answered.get(edit.id) or next(fresh) for edit in message.edits] + list(fresh), derived
+
+
+def _images_of(connection: Connection, *, outcomes: Sequence[Outcome]) -> list[Image]:
+    """The images of what was accepted, as they are now."""
+    touched = {outcome.annotation.image for outcome in outcomes if isinstance(outcome, Accepted)}
+    touched |= {outcome.image for outcome in outcomes if isinstance(outcome, StatusStored)}
+    return [get_image(connection, image_id) for image_id in sorted(touched)]
 
 
 async def _derive(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> list[Derived]:

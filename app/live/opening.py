@@ -1,8 +1,8 @@
-"""Opening images in a tab: one asked for, the next of the list, the last one; and setting their status."""
+"""Opening images in a tab: one asked for, the next of the list, the last one."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from sqlalchemy import Connection
@@ -15,9 +15,9 @@ from fairyring.storage import images
 from fairyring.storage.contents import load_version
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, ListPosition
-from fairyring.storage.records import Image, ImageContents, Status
+from fairyring.storage.records import Image, ImageContents
 
-CHANGES_IMAGE = ("status", "images", "cap", "review")
+CHANGES_IMAGE = ("status", "images", "cap", "history", "review")
 """The parts of the panel that depend on the image on screen."""
 
 
@@ -99,17 +99,6 @@ async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> No
         )
     else:
         await open_image(workspace, session, target)
-
-
-async def set_status(workspace: Workspace, session: Session, image_id: int, status: Status) -> None:
-    """Says that an image is new, annotated or approved; every tab that shows it or lists it follows."""
-    image = await workspace.write(
-        lambda connection: images.set_status(connection, image_id, status, user=session.user)
-    )
-    for tab in workspace.tabs:
-        if tab.caps is not None and tab.shows(image_id):
-            tab.caps = replace(tab.caps, image=image)
-        tab.refresh("status", "images")
 
 
 async def show_predictions(workspace: Workspace, image_id: int) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from dataclasses import replace
 
 import anyio.to_thread
 from sqlalchemy import Connection
 
 from fairyring.app.live.opening import CHANGES_IMAGE, reopen
 from fairyring.app.live.session import Session
+from fairyring.app.live.statuses import tell_status
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Changed, Predicted
 from fairyring.model.errors import FairyringError
@@ -80,7 +80,7 @@ def _bring_up_to(tab: Session, contents: ImageContents, gone: list[Annotation]) 
     if contents.predictions != tab.caps.predictions or contents.run != tab.run:
         tab.take_predictions(contents)
         tab.send(Predicted(image=contents.image.id, predictions=contents.predictions))
-    tab.caps = replace(tab.caps, image=contents.image)
+    tell_status(tab, contents.image, user=SOMEBODY)
 
 
 def _is_news(annotation: Annotation, known: Annotation | None) -> bool:

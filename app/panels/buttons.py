@@ -32,3 +32,9 @@ def command_button(name: str, *, class_: str | None = None) -> Markup:
         aria_label=command.label or command.words,
         data_fairyring_command=name,
     )
+
+
+def worded_button(name: str) -> Markup:
+    """Runs a command; shows its name. Raises KeyError for one not declared."""
+    command = COMMANDS[name]
+    return element("button", command.label, type="button", title=command.title, data_fairyring_command=name)

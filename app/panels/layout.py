@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
-from fairyring.app.panels import images, inspector, jobs, layers, predict, review, status, tools
+from fairyring.app.panels import (
+    history,
+    images,
+    inspector,
+    jobs,
+    layers,
+    predict,
+    review,
+    status,
+    tools,
+)
 from fairyring.app.panels.callbacks import Redrawing
 
 
@@ -13,13 +23,15 @@ def build_panel(workspace: Workspace, session: Session) -> None:
     if not session.has_panel:
         gui = session.client.gui
         parts = {"status": status.build(workspace, session)}
-        tools.build(workspace, session)
+        tools.build(session)
         parts["cap"] = inspector.build(workspace, session)
         pages = gui.add_tab_group()
         with pages.add_tab("Images"):
             parts["images"] = images.build(workspace, session)
         with pages.add_tab("View"):
             parts["layers"] = layers.build(workspace, session)
+        with pages.add_tab("History"):
+            parts["history"] = history.build(workspace, session)
         with pages.add_tab("Review"):
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
@@ -27,4 +39,4 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["jobs"] = jobs.build(workspace, session)
         session.redraw = Redrawing(parts).ask
         session.has_panel = True
-    session.refresh("status", "cap", "images", "layers", "review", "predict", "jobs")
+    session.refresh("status", "cap", "images", "history", "layers", "review", "predict", "jobs")

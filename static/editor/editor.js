@@ -5,7 +5,7 @@
  */
 
 import { same } from "./geometry/same.js";
-import { ACTIONS } from "./input/actions.js";
+import { ACTIONS, showTravelled } from "./input/actions.js";
 import { bringFocusBack, switchFocus } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
@@ -27,18 +27,34 @@ import { ConflictDialog } from "./ui/conflict.js";
 import { keyList } from "./ui/help.js";
 import { noticesIn } from "./ui/notices.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
+import { ask } from "./ui/question.js";
+import { Refusals } from "./ui/refusals.js";
 import { statusIn } from "./ui/status.js";
 
 /** @typedef {import("./protocol.js").FromServer} FromServer */
 /** @typedef {import("./protocol.js").Layers} Layers */
+/** @typedef {import("./protocol.js").Status} Status */
 /** @typedef {import("./protocol.js").ToServer} ToServer */
 
 /** Close codes of the server. */
 const NO_NAME = 4401;
 const TOO_BIG = 1009;
 
+/** Why nothing can be taken back or done again. */
+const STUCK = {
+  nothing: {
+    undo: "There is nothing to undo on this image.",
+    redo: "There is nothing to redo.",
+  },
+  offline: {
+    undo: "What was done before this page was loaded can be undone when the server is back.",
+    redo: "What was undone before this page was loaded can be done again when the server is back.",
+  },
+};
+
 export class Editor {
   #project = "";
+  #user = "";
   /** How many unsaved edits the server was last told of. */
   #waiting = 0;
   /** @type {Promise<void> | null} */
@@ -53,6 +69,7 @@ export class Editor {
   #say;
   #status;
   #conflicts;
+  #refusals;
   #toolbox;
   #perform;
 
@@ -74,16 +91,28 @@ export class Editor {
       send,
       stalled: () => this.#transport.drop(),
       progress: () => this.#progress(),
-      refused: (reason) => this.#say(reason, "error"),
+      refused: (edit, reason) => this.#refusals.tell(edit, reason),
+      travelled: (travelled) => this.#travelled(travelled),
+      stuck: (why, way) => this.#say(STUCK[why][way], "warning"),
     });
     const photos = new Photos(() => this.#frame.redrawPhoto());
-    this.#frame = new Frame(host, state, photos, () => [...this.#toolbox.sketches, this.#conflicts.sketch]);
+    this.#frame = new Frame(host, state, photos, () => [
+      ...this.#toolbox.sketches,
+      this.#conflicts.sketch,
+      this.#refusals.sketch,
+    ]);
     this.#say = noticesIn(host);
+    this.#refusals = new Refusals({
+      say: this.#say,
+      show: (image, uid) => this.#showCap(image, uid),
+      image: () => state.image?.id ?? 0,
+      redraw: () => state.signals.overlay.emit(),
+    });
     this.#status = statusIn(host);
     this.#liveFit = new LiveFit(state, { send, told: captionIn(host) });
     this.#conflicts = new ConflictDialog(host, {
       resolve: (conflict, whose) => this.#sync.resolve(conflict, whose),
-      show: (conflict) => this.#showConflict(conflict),
+      show: ({ image, uid }) => this.#showCap(image, uid),
     });
     const tool = () => this.#toolbox.tool;
     const pressed = pressedButtons(() => tool().name);
@@ -140,6 +169,8 @@ export class Editor {
       finish: () => this.#toolbox.finish(),
       undo: () => this.#sync.undo(),
       redo: () => this.#sync.redo(),
+      setStatus: (/** @type {Status} */ status) => this.#sync.say(status),
+      ask,
       send: (/** @type {ToServer} */ message) => this.#send(message),
       toggle: (/** @type {string} */ layer) => this.#toggle(layer),
       switchFocus: () => switchFocus(host),
@@ -165,6 +196,10 @@ export class Editor {
       perform: this.#perform,
       use: (name) => this.#toolbox.use(name),
       open: (image, select) => this.#open(image, select),
+      takeBack: (image, changeSet) => {
+        state.commitDrafts();
+        this.#sync.takeBack(image, changeSet);
+      },
     });
     bringFocusBack(host);
     keepPlace(state, (image) => this.#open(image, null));
@@ -193,14 +228,21 @@ export class Editor {
     else if (select) state.select([select], { reveal: true });
   }
 
-  /** @type {(conflict: import("./sync/sync.js").OpenConflict) => void} */
-  #showConflict({ image, uid }) {
+  /** @type {(image: number, uid: string) => void} */
+  #showCap(image, uid) {
     const state = this.#state;
     if (image !== state.image?.id) this.#open(image, uid);
     else if (state.items.get(uid)) {
       state.select([uid]);
       state.reveal({ close: true });
     }
+  }
+
+  /** @type {(travelled: import("./sync/sync.js").Travelled) => void} */
+  #travelled({ image, changes, stayed }) {
+    if (image !== this.#state.image?.id) this.#open(image, null);
+    else showTravelled(this.#state, changes);
+    if (stayed) this.#say(`${stayed} of these caps were changed since and stay as they are.`);
   }
 
   #tellSelection() {
@@ -230,8 +272,10 @@ export class Editor {
   }
 
   #progress() {
-    const { kept, conflicts } = this.#sync;
+    const { kept, conflicts, status } = this.#sync;
     const waiting = this.#unsaved;
+    const { image } = this.#state;
+    if (image && image.id === this.#sync.image && image.status !== status) this.#state.image = { ...image, status };
     this.#status({ connection: this.#transport.state, waiting, kept, conflicts: conflicts.length });
     this.#conflicts.update(conflicts, this.#state.image?.id ?? 0);
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))
@@ -244,18 +288,23 @@ export class Editor {
    * @type {(message: FromServer) => void}
    */
   #receiveInOrder(message) {
-    if (message.type === "welcome") this.#ready = this.#welcome(message.project);
+    if (message.type === "welcome") this.#ready = this.#welcome(message);
     else if (this.#ready) void this.#ready.then(() => this.#receive(message));
   }
 
   /** @type {(message: FromServer) => void} */
   #receive(message) {
+    this.#sync.heard();
     switch (message.type) {
       case "show":
         this.#opening.show(message);
         return this.#progress();
       case "outcomes":
         return this.#sync.receive(message.outcomes);
+      case "status":
+        return this.#sync.statusChanged(message.image, message.status, message.user === this.#user);
+      case "recalled":
+        return this.#sync.recalled(message);
       case "changed":
         return this.#sync.changed(message.image, message.annotations);
       case "predicted":
@@ -272,9 +321,10 @@ export class Editor {
     }
   }
 
-  /** @type {(project: string) => Promise<void>} */
-  async #welcome(project) {
+  /** @type {(welcome: import("./protocol.js").Welcome) => Promise<void>} */
+  async #welcome({ project, user }) {
     this.#waiting = 0;
+    this.#user = user;
     if (this.#project !== project) {
       this.#project = project;
       this.#drawings.use(project);

@@ -104,6 +104,18 @@
  * @property {number} image
  * @property {number} base
  * @property {Cap | null} cap
+ * @property {string} change_set
+ * @property {string} takes_back
+ */
+
+/**
+ * @typedef {Object} StatusEdit
+ * @property {string} id
+ * @property {number} image
+ * @property {Status} before
+ * @property {Status} after
+ * @property {string} change_set
+ * @property {string} takes_back
  */
 
 /**
@@ -128,7 +140,33 @@
  * @property {string} reason
  */
 
-/** @typedef {Accepted | Conflict | Refused} Outcome */
+/**
+ * @typedef {Object} StatusStored
+ * @property {"status"} outcome
+ * @property {string} edit
+ * @property {number} image
+ * @property {Status} status
+ */
+
+/** @typedef {Accepted | Conflict | Refused | StatusStored} Outcome */
+
+/** @typedef {"undo" | "redo"} Way */
+
+/**
+ * @typedef {Object} Return
+ * @property {Annotation} annotation
+ * @property {Cap | null} cap
+ * @property {boolean} deleted
+ */
+
+/**
+ * @typedef {Object} Reversal
+ * @property {string} id
+ * @property {string} made_at
+ * @property {Return[]} returns
+ * @property {number} changed_since
+ * @property {[Status, Status] | null} status
+ */
 
 /**
  * @typedef {Object} ImageContents
@@ -162,6 +200,7 @@
  * @typedef {Object} Edits
  * @property {"edits"} type
  * @property {Edit[]} edits
+ * @property {StatusEdit[]} statuses
  */
 
 /**
@@ -181,10 +220,11 @@
  */
 
 /**
- * @typedef {Object} SetStatus
- * @property {"status"} type
+ * @typedef {Object} Recall
+ * @property {"recall"} type
  * @property {number} image
- * @property {Status} status
+ * @property {Way} way
+ * @property {number | null} change_set
  */
 
 /**
@@ -199,7 +239,7 @@
  * @property {string} layer
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | SetStatus | Saving | Toggle} ToServer */
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle} ToServer */
 
 /**
  * @typedef {Object} Welcome
@@ -223,6 +263,28 @@
  * @typedef {Object} Outcomes
  * @property {"outcomes"} type
  * @property {Outcome[]} outcomes
+ */
+
+/**
+ * @typedef {Object} Working
+ * @property {"working"} type
+ */
+
+/**
+ * @typedef {Object} StatusChanged
+ * @property {"status"} type
+ * @property {number} image
+ * @property {Status} status
+ * @property {string} user
+ */
+
+/**
+ * @typedef {Object} Recalled
+ * @property {"recalled"} type
+ * @property {number} image
+ * @property {Way} way
+ * @property {number | null} change_set
+ * @property {Reversal | null} reversal
  */
 
 /**
@@ -285,6 +347,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Changed | Predicted | Fitted | Layers | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | Fitted | Layers | Command | Notice} FromServer */
 
 export {};

@@ -137,6 +137,19 @@ annotation = Table(
 )
 underived(annotation)
 
+change_set = Table(
+    "change_set",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("id", Text, nullable=False),
+    Column("image", Integer, ForeignKey("image.id"), nullable=False),
+    Column("user", Text, nullable=False),
+    Column("made_at", Text, nullable=False),
+    Column("takes_back", Text),
+    UniqueConstraint("image", "user", "id"),
+    **NEVER_REUSED,
+)
+
 edit = Table(
     "edit",
     metadata,
@@ -151,6 +164,7 @@ edit = Table(
     Column("after", Json(Cap)),
     Column("user", Text, nullable=False),
     Column("made_at", Text, nullable=False),
+    Column("change_set", Integer, ForeignKey("change_set.sequence"), index=True),
     UniqueConstraint("annotation", "revision"),
     **NEVER_REUSED,
 )
@@ -164,6 +178,10 @@ status_change = Table(
     Column("after", Text, nullable=False),
     Column("user", Text, nullable=False),
     Column("made_at", Text, nullable=False),
+    Column("id", Text),
+    Column("digest", Text),
+    Column("change_set", Integer, ForeignKey("change_set.sequence"), index=True),
+    Index(None, "id", unique=True),
     **NEVER_REUSED,
 )
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
+from uuid import uuid4
 
 from msgspec import Struct, structs
 from sqlalchemy import Connection, insert, select, update
 
 from fairyring.model.geometry.shapes import Fit, polygon_of_shape
+from fairyring.storage.change_sets import ChangeSets
 from fairyring.storage.db import schema
 from fairyring.storage.db.bulk import insert_many
 from fairyring.storage.db.clock import now
@@ -20,6 +22,7 @@ from fairyring.storage.importing.cap_checks import content_number
 from fairyring.storage.importing.photos import Photo
 from fairyring.storage.predictions import saw
 from fairyring.storage.records import Outline
+from fairyring.storage.statuses import follow_edits
 
 CHUNK = 500
 """How many uids are asked for in one statement."""
@@ -77,12 +80,15 @@ def enter_annotations(
     owners = _owners(connection, [cap.uid or "" for item in labelled for cap in item.caps])
     annotations: list[dict[str, Any]] = []
     edits: list[dict[str, Any]] = []
-    time = now()
+    time, sets, name = now(), ChangeSets(connection, user=user), f"import-{uuid4().hex}"
+    numbers: dict[int, int] = {}
     for photo, cap in _pairs(labelled):
+        assert photo.id is not None, "photos are entered before their caps"
         uid = _own_number(cap, photo, owners)
         if uid in owners:
             continue
         owners[uid] = photo.id
+        numbers[photo.id] = sets.number(photo.id, name, time=time)
         annotations.append(
             values_of_cap(cap.cap, categories=ids)
             | values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
@@ -92,10 +98,13 @@ def enter_annotations(
         edits.append(
             {"id": f"import-{uid}", "digest": "import", "annotation": uid, "image": photo.id, "base": 0}
             | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
+            | {"change_set": numbers[photo.id]}
         )
     insert_many(connection, schema.annotation, annotations)
     insert_many(connection, schema.edit, edits)
-    recount(connection, {row["image"] for row in annotations})
+    recount(connection, numbers)
+    for image, number in numbers.items():
+        follow_edits(connection, image, number, takes_back=False, user=user)
     total = sum(len(item.caps) for item in labelled)
     return Entered(new=len(annotations), known=total - len(annotations))
 

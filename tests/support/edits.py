@@ -7,8 +7,11 @@ from fairyring.storage.journal import Derived, commit
 from fairyring.storage.records import Edit
 
 
-def edit(number="e1", *, annotation="cap", image=1, base=0, cap=None, **derived):
-    made = Edit(id=number, annotation=annotation, image=image, base=base, cap=cap)
+def edit(
+    number="e1", *, annotation="cap", image=1, base=0, cap=None, change_set="", takes_back="", **derived
+):
+    whence = {"change_set": change_set, "takes_back": takes_back}
+    made = Edit(id=number, annotation=annotation, image=image, base=base, cap=cap, **whence)
     return Derived(edit=made, fit=Fit(**derived))
 
 

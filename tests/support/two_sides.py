@@ -6,11 +6,14 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import Any
 
-from fairyring.app.protocol import Edits
+from fairyring.app.protocol import Edits, Recall, Recalled
 from fairyring.storage.contents import load_annotation, load_annotations
+from fairyring.storage.image_history import next_reversal, reversal_of
+from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit
+from fairyring.storage.records import Annotation, Cap, Edit, Image, Status
+from fairyring.storage.statuses import set_status
 from tests.support.browser_side import BrowserSide, Look
 
 IMAGE = 1
@@ -30,7 +33,7 @@ class TwoSides:
     look: Look = field(init=False)
     refused: list[str] = field(default_factory=list)
     up: bool = True
-    _wire: deque[Edits] = field(default_factory=deque)
+    _wire: deque[Edits | Recall] = field(default_factory=deque)
     _drawn: int = 0
     _edits_of_bob: int = 0
 
@@ -69,15 +72,40 @@ class TwoSides:
         """Ada undoes, redoes, takes a prediction, resolves a conflict."""
         self._tell(what, *how)
 
+    def release(self, x: float) -> None:
+        """Ada lets go at ``x`` what she took hold of; nothing where her page was loaded anew since."""
+        self._tell("release", Cap(visible=triangle(x)))
+
+    def say(self, status: Status) -> None:
+        """Ada says something of the image."""
+        self._tell("say", status)
+
     def serve(self, *, answer: bool = True) -> bool:
-        """The server stores one change set; the answer may get lost on its way. False when none has come."""
+        """The server answers one message; the answer may get lost on its way. False when none has come."""
         if not self._wire:
             return False
-        edits = self._wire.popleft().edits
-        outcomes = commit(self.project, [Derived(edit=edit) for edit in edits], user="Ada")
+        message = self._wire.popleft()
+        if isinstance(message, Recall):
+            self._recall(message)
+            return True
+        derived, before = [Derived(edit=edit) for edit in message.edits], self.image.status
+        outcomes = commit(self.project, derived, statuses=message.statuses, user="Ada")
         if answer:
+            if self.image.status != before:
+                self._tell("status_changed", IMAGE, self.image.status, True)
             self._tell("receive", outcomes)
         return True
+
+    def _recall(self, asked: Recall) -> None:
+        with self.project.read() as connection:
+            found = (
+                next_reversal(connection, IMAGE, user="Ada", way=asked.way)
+                if asked.change_set is None
+                else reversal_of(connection, IMAGE, asked.change_set)
+            )
+        self._tell(
+            "recalled", Recalled(image=IMAGE, way=asked.way, change_set=asked.change_set, reversal=found)
+        )
 
     def drain(self) -> None:
         """The server stores everything that is sent."""
@@ -95,7 +123,7 @@ class TwoSides:
         self._wire.clear()
         self.up = True
         self._tell("disconnect")
-        self._tell("open", IMAGE, self.stored())
+        self._tell("open", self.image, self.stored())
         self._tell("connect")
 
     def reload(self) -> None:
@@ -117,6 +145,18 @@ class TwoSides:
         if self.up:
             self._tell("changed", IMAGE, [self.annotation(uid)])
 
+    def bob_says(self, status: Status) -> None:
+        """Bob says something of the image; Ada's tab is told while its line is up."""
+        self.project.write(lambda connection: set_status(connection, IMAGE, status, user="Bob"))
+        if self.up:
+            self._tell("status_changed", IMAGE, status, False)
+
+    @property
+    def image(self) -> Image:
+        """As it is stored."""
+        with self.project.read() as connection:
+            return get_image(connection, IMAGE)
+
     def annotation(self, uid: str) -> Annotation:
         """As it is stored."""
         with self.project.read() as connection:
@@ -136,5 +176,5 @@ class TwoSides:
 
     @property
     def agree(self) -> bool:
-        """Whether both sides have the same caps."""
-        return self.look.live == self.there
+        """Whether both sides have the same caps and the same status."""
+        return self.look.live == self.there and self.look.status == self.image.status

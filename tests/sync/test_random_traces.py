@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fairyring.storage.journal import history
+from fairyring.storage.records import STATUSES
 from tests.support.kept import all_caps
 from tests.support.two_sides import TwoSides, triangle
 
@@ -17,8 +18,9 @@ Step = tuple[str, int]
 """What happens, and a number that says to which cap, or where."""
 
 BOW_TIE = [[0.0, 0.0, 40.0, 40.0, 40.0, 0.0, 0.0, 40.0]]
-ALONE = ("create", "move", "move two", "cross", "remove", "undo", "redo", "serve", "lose", "break", "reload")
-TOGETHER = (*ALONE, "spoil", "bob changes", "bob deletes", "settle")
+BY_HAND = ("create", "move", "move two", "cross", "remove", "hold", "release", "say", "undo", "redo")
+ALONE = (*BY_HAND, "serve", "lose", "break", "reload")
+TOGETHER = (*ALONE, "spoil", "bob changes", "bob deletes", "bob says", "settle")
 
 traced = settings(derandomize=True, database=None, deadline=None, max_examples=40)
 
@@ -44,6 +46,12 @@ def happen(sides: TwoSides, step: Step) -> None:
         sides.cut() if sides.up else sides.reconnect()
     elif what == "reload":
         sides.reload()
+    elif what == "say":
+        sides.say(STATUSES[number % 3])
+    elif what == "bob says":
+        sides.bob_says(STATUSES[number % 3])
+    elif what == "release":
+        sides.release(number)
     elif what == "create" or not live:
         sides.draw(number)
     else:
@@ -54,6 +62,8 @@ def change(sides: TwoSides, what: str, uid: str, number: int) -> None:
     """A step that is about a cap."""
     if what == "move":
         sides.move(uid, number)
+    elif what == "hold":
+        sides.do("hold", uid)
     elif what == "move two":
         others = {uid, next(iter(sides.look.live))}
         sides.become(**{other: sides.replaced(other, visible=triangle(number)) for other in others})

@@ -27,8 +27,10 @@ DRAWINGS = {
     """,
     "storage": """
         importing  exporting  backup
-        journal  formats  migrations
+        journal  formats  migrations  image_history
+        statuses
         project  images  contents  predictions  comparisons  derived  ledger
+        change_sets
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

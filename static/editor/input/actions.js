@@ -7,15 +7,18 @@
 import DECLARED from "../commands.js";
 import { areaOfRing, circleOfWhole, measure, polygonOfCircle } from "../geometry/caps.js";
 import { isPrediction, uidOfPrediction } from "../geometry/shapes.js";
+import { questionOf } from "../state/finishing.js";
 import { acceptAll, acceptSelected, changeSelected, deleteSelected, nudge } from "../state/edits.js";
 import { commandOfLayer } from "./keys.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Cap} Cap */
+/** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
 /** @typedef {import("../state/changes.js").Change} Change */
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tools/tool.js").Tool} Tool */
+/** @typedef {import("../state/finishing.js").Question} Question */
 
 /**
  * @typedef {Object} Context  what commands work with
@@ -23,8 +26,10 @@ import { commandOfLayer } from "./keys.js";
  * @property {() => Tool} tool
  * @property {(name: string) => void} use  takes up a tool
  * @property {() => void} finish  closes the outline that is half drawn
- * @property {() => Change[] | null} undo  null where there is nothing to undo
- * @property {() => Change[] | null} redo
+ * @property {() => void} undo
+ * @property {() => void} redo
+ * @property {(status: Status) => void} setStatus  of the image on screen
+ * @property {(question: Question) => Promise<boolean>} ask
  * @property {(message: ToServer) => boolean} send
  * @property {(layer: string) => void} toggle  shows or hides a layer
  * @property {() => void} switchFocus  from the photo to the panel, and back
@@ -39,9 +44,8 @@ const HALF_DRAWN = "An outline is still half drawn on this image: Enter closes i
 
 /** @type {Record<string, Action>} */
 export const ACTIONS = {
-  undo: (context) =>
-    context.tool().undo?.() || travel(context, context.undo, "There is nothing to undo on this image."),
-  redo: (context) => context.tool().redo?.() || travel(context, context.redo, "There is nothing to redo."),
+  undo: ({ state, tool, undo }) => tool().undo?.() || (state.commitDrafts(), undo()),
+  redo: ({ state, tool, redo }) => tool().redo?.() || (state.commitDrafts(), redo()),
   fit: ({ state }) => state.viewport.showAll(),
   zoom_selection: ({ state }) =>
     state.selection.uids.size ? state.reveal({ close: true }) : state.viewport.showAll(),
@@ -65,7 +69,10 @@ export const ACTIONS = {
     state.select(state.visible.filter((shape) => !isPrediction(shape)).map(({ uid }) => uid)),
   next_image: (context) => step(context, 1),
   previous_image: (context) => step(context, -1),
-  done: finishImage,
+  done: (context) => void finishImage(context),
+  to_do: ({ state, setStatus }) => (state.commitDrafts(), setStatus("new")),
+  annotated: (context) => void finishAs(context, "annotated"),
+  approved: (context) => void finishAs(context, "approved"),
   switch_focus: ({ switchFocus }) => switchFocus(),
   help: ({ help }) => help(),
   select: ({ use }) => use("select"),
@@ -86,14 +93,16 @@ for (const [name, dx, dy] of /** @type {[string, number, number][]} */ ([
 
 for (const { name } of DECLARED.layers) ACTIONS[commandOfLayer(name)] = ({ toggle }) => toggle(name);
 
-/** @type {(context: Context, move: () => Change[] | null, nothing: string) => void} */
-function travel({ state, say }, move, nothing) {
-  state.commitDrafts();
-  const changes = move();
-  if (!changes) return say(nothing);
+/**
+ * Selects what was taken back or done again, and brings it into view.
+ *
+ * @param {EditorState} state
+ * @param {Change[]} changes
+ */
+export function showTravelled(state, changes) {
   const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
   const known = uids.filter((uid) => state.items.get(uid));
-  state.select(known.length <= 20 ? known : []);
+  if (changes.length) state.select(known.length <= 20 ? known : []);
   state.glimpse();
 }
 
@@ -191,11 +200,32 @@ function readingKey({ cap }) {
   return Math.floor((bounds.y0 + bounds.y1) / 128) * 1e6 + bounds.x0 + bounds.x1;
 }
 
-/** @type {(context: Context) => void} */
-function finishImage({ state, send, say }) {
-  if (!state.image) return;
-  if (!state.halfDrawn.empty) return say(HALF_DRAWN);
+/** @type {(context: Context) => Promise<void>} */
+async function finishImage(context) {
+  const { image } = context.state;
+  if (image && (await finishAs(context, "annotated"))) context.send({ type: "step", by: 1 });
+}
+
+/**
+ * Says something of the image. Predictions that nobody has looked at are asked about first: without them the
+ * photo teaches that there are no caps where they are.
+ *
+ * @param {Context} context
+ * @param {"annotated" | "approved"} status
+ * @returns {Promise<boolean>} whether it was said
+ */
+async function finishAs({ state, setStatus, ask, say }, status) {
   state.commitDrafts();
-  send({ type: "status", image: state.image.id, status: "annotated" });
-  send({ type: "step", by: 1 });
+  const { image } = state;
+  if (!image) return false;
+  if (!state.halfDrawn.empty) {
+    say(HALF_DRAWN);
+    return false;
+  }
+  const open = state.items.all.filter(isPrediction).length;
+  const counts = { name: image.file_name, open, caps: state.items.all.length - open };
+  if (open && !(await ask(questionOf(status, counts)))) return false;
+  if (state.image?.id !== image.id) return false;
+  setStatus(status);
+  return true;
 }

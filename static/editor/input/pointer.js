@@ -72,6 +72,7 @@ export class Pointer {
     if (event.button !== 0 || this.panKey) this.#panning = true;
     else {
       this.#pressed = true;
+      this.#state.beginGesture();
       this.#pressedWith = [...this.#pressedWith.slice(-1), this.#tool()];
       this.#tool().down(press);
     }
@@ -141,6 +142,7 @@ export class Pointer {
     if (this.#pressed && event.button <= 0) {
       this.#pressed = false;
       this.#tool().up(press);
+      this.#state.endGesture();
       this.#caused(event.timeStamp, "release");
     }
     if (event.buttons === 0) this.#panning = false;
@@ -154,6 +156,7 @@ export class Pointer {
 
   /** Another tool or image has come: what is pressed drags nothing of it. */
   letGo() {
+    this.#state.endGesture();
     this.#pressed = this.#panning = false;
   }
 

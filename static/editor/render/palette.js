@@ -16,6 +16,7 @@ export const COLOURS = {
   prediction: "#d3c6ff",
   ignored: "#9aa3ad",
   theirs: "#ff8a3d",
+  refused: "#ff5c6c",
   draft: "#ffffff",
 };
 

@@ -9,6 +9,8 @@
 export class Drafts {
   /** @type {Map<string, Shape>} */
   #shapes = new Map();
+  /** What they were when they were begun. @type {Map<string, Shape>} */
+  #begun = new Map();
   #timer = 0;
 
   get all() {
@@ -30,18 +32,35 @@ export class Drafts {
     return this.#shapes.get(uid) ?? null;
   }
 
-  /** @type {(shape: Shape) => void} */
-  put(shape) {
+  /**
+   * @param {Shape} shape
+   * @param {Shape | null} [now]  the item that it is a draft of, as it is now
+   */
+  put(shape, now = null) {
     this.#shapes.set(shape.uid, shape);
+    if (now && !this.#begun.has(shape.uid)) this.#begun.set(shape.uid, now);
   }
 
-  /** Forgets them all. @returns {Shape[]} what they were */
+  /**
+   * What a draft was begun on. Whatever has become of the cap since, the draft keeps the revision that it was
+   * made of: only so can the server tell that two people have changed the cap at once.
+   *
+   * @param {Shape} draft
+   * @returns {Shape | null}
+   */
+  begunOn(draft) {
+    const begun = this.#begun.get(draft.uid);
+    return begun ? { ...begun, revision: draft.revision } : null;
+  }
+
+  /** Forgets them all. @returns {{before: Shape | null, draft: Shape}[]} what they were, and begun on */
   clear() {
     clearTimeout(this.#timer);
     this.#timer = 0;
-    const shapes = this.all;
+    const pairs = this.all.map((draft) => ({ before: this.begunOn(draft), draft }));
     this.#shapes.clear();
-    return shapes;
+    this.#begun.clear();
+    return pairs;
   }
 
   /** Calls `commit` when nothing more has happened for a while. @type {(wait_ms: number, commit: () => void) => void} */

@@ -56,6 +56,8 @@ export class EditorState {
     nudge: signal(),
   };
 
+  /** The revisions of the selected caps when the press that is under way began. @type {Map<string, number>} */
+  #gesture = new Map();
   #commit;
 
   /** @param {(changes: Change[]) => void} commit  puts changes into the store and sends them */
@@ -75,8 +77,8 @@ export class EditorState {
   #storeChanged(changes) {
     this.signals.shapes.emit(changes.flatMap(({ before, after }) => (before ? [before, after] : [after])));
     if (!changes.some(({ after }) => after.deleted && this.selection.has(after.uid))) return;
-    this.commitDrafts();
-    this.selection.keep((uid) => this.items.get(uid) !== null);
+    // A cap that somebody deletes while it is changed here stays in hand: it becomes a conflict.
+    this.selection.keep((uid) => this.shape(uid) !== null);
   }
 
   /** What is not seen any more is not acted on either. */
@@ -162,10 +164,10 @@ export class EditorState {
     const same = this.image?.id === image.id;
     this.image = image;
     this.items.predictions = predictions.map(shapeOfPrediction);
-    this.drafts.clear();
+    if (!same) this.#forgetDrafts();
     this.selection.hover(null);
     this.viewport.open(image);
-    const kept = same ? [...this.selection.uids].filter((uid) => this.items.get(uid)) : [];
+    const kept = same ? [...this.selection.uids].filter((uid) => this.shape(uid)) : [];
     // The server knows nothing of the selection after a break, so it is told even where it is the same.
     if (!this.selection.set(kept)) this.signals.selection.emit();
     this.signals.picture.emit();
@@ -180,8 +182,13 @@ export class EditorState {
     const held = this.items.predictions.filter(({ uid }) => this.drafts.has(uid));
     this.items.predictions = [...held, ...predictions.map(shapeOfPrediction)];
     this.selection.hover(null);
-    this.selection.keep((uid) => this.items.get(uid) !== null);
+    this.selection.keep((uid) => this.shape(uid) !== null);
     this.signals.picture.emit();
+  }
+
+  #forgetDrafts() {
+    this.drafts.clear();
+    this.endGesture();
   }
 
   /**
@@ -219,7 +226,7 @@ export class EditorState {
   propose(shapes) {
     const { lifted } = this;
     const fresh = shapes.filter(({ uid }) => !lifted.has(uid));
-    for (const shape of shapes) this.drafts.put(shape);
+    for (const shape of shapes) this.drafts.put(shape, this.items.get(shape.uid));
     if (fresh.length) this.signals.shapes.emit(fresh.flatMap(({ uid }) => this.items.get(uid) ?? []));
     if (shapes.length === 1) this.signals.draft.emit(shapes[0]);
     this.signals.overlay.emit();
@@ -227,8 +234,8 @@ export class EditorState {
 
   /** Forgets what was proposed. */
   withdraw() {
-    const shapes = this.drafts.clear();
-    if (shapes.length) this.signals.shapes.emit(shapes.flatMap(({ uid }) => this.items.get(uid) ?? []));
+    const drafts = this.drafts.clear();
+    if (drafts.length) this.signals.shapes.emit(drafts.flatMap(({ draft }) => this.items.get(draft.uid) ?? []));
   }
 
   /** Commits what was proposed, as one step. */
@@ -236,10 +243,7 @@ export class EditorState {
     const drafts = this.drafts.clear();
     if (drafts.length === 0) return;
     this.commit(
-      drafts.flatMap((draft) => {
-        const before = this.items.get(draft.uid);
-        return before && before.cap !== draft.cap ? [changed(before, draft)] : [];
-      }),
+      drafts.flatMap(({ before, draft }) => (before && before.cap !== draft.cap ? [changed(before, draft)] : [])),
     );
     this.signals.overlay.emit();
   }
@@ -251,7 +255,8 @@ export class EditorState {
    */
   commit(changes) {
     if (changes.length && this.halfDrawn.empty) this.halfDrawn.begin([]);
-    this.#commit(changes);
+    this.#commit(changes.map((change) => this.#asBegun(change)));
+    for (const { after } of changes) this.#gesture.delete(after.uid);
     /** @type {Map<string, string>} */
     const heirs = new Map();
     for (const { before, after } of changes) {
@@ -259,5 +264,24 @@ export class EditorState {
       if (!before && !after.deleted && prediction !== null) heirs.set(uidOfPrediction(prediction), after.uid);
     }
     if ([...this.selection.uids].some((uid) => heirs.has(uid))) this.selection.follow(heirs);
+  }
+
+  /** A press begins a gesture: what it does to the selected caps it does to them as they are now. */
+  beginGesture() {
+    this.commitDrafts();
+    this.#gesture = new Map(this.selected.map(({ uid, revision }) => [uid, revision]));
+  }
+
+  endGesture() {
+    this.#gesture.clear();
+  }
+
+  /** A change made by a gesture is one of the cap as it was when the gesture began. @type {(change: Change) => Change} */
+  #asBegun(change) {
+    const { before } = change;
+    const revision = before && this.#gesture.get(before.uid);
+    return before && revision != null && revision < before.revision
+      ? { ...change, before: { ...before, revision } }
+      : change;
   }
 }

@@ -1,5 +1,5 @@
 /**
- * Undo and redo of one image, without limit: change sets and their inverses.
+ * Undo and redo of one image, without limit: what was done in one go, and its inverse.
  *
  * @module
  */
@@ -8,48 +8,78 @@ import { inverse } from "./changes.js";
 import { untouched } from "./untouched.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../protocol.js").Cap} Cap */
+/** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("./changes.js").Change} Change */
+/** @typedef {{before: Status, after: Status}} StatusChange */
+
+/**
+ * What was done in one go.
+ *
+ * @typedef {Object} ChangeSet
+ * @property {string[]} ids  the change sets that did it, took it back, did it again …; the newest one last
+ * @property {Change[]} changes
+ * @property {StatusChange | null} status
+ */
+
+/**
+ * What is to be done now, and the change set that this takes back.
+ *
+ * @typedef {{takesBack: string, changes: Change[], status: StatusChange | null}} Move
+ */
 
 export class History {
-  /** @type {Change[][]} */
+  /** @type {ChangeSet[]} */
   #done = [];
-  /** @type {Change[][]} */
+  /** @type {ChangeSet[]} */
   #undone = [];
 
   /**
    * Something new was done; what was taken back of other caps can still be done again.
    *
-   * @type {(changes: Change[]) => void}
+   * @type {(set: ChangeSet) => void}
    */
-  push(changes) {
-    this.#done.push(changes);
-    this.#undone = untouched(this.#undone, (set) => set, changes);
+  push(set) {
+    this.#done.push(set);
+    this.#undone = untouched(this.#undone, ({ changes }) => changes, set.changes);
+  }
+
+  /** Takes in what was done before this page was loaded, and is taken back now. @type {(set: ChangeSet) => void} */
+  wasUndone(set) {
+    this.#undone.push(set);
+  }
+
+  /** Takes in what was taken back before this page was loaded, and is done again now. @type {(set: ChangeSet) => void} */
+  wasRedone(set) {
+    this.#done.push(set);
   }
 
   /**
-   * What to apply to take back the last change set; null when there is none.
+   * What to do to take back the last set; null when there is none.
    *
+   * @param {string} id  of the change set that does it
    * @param {(uid: string) => Shape | null} current
-   * @returns {Change[] | null}
+   * @returns {Move | null}
    */
-  undo(current) {
-    const changes = this.#done.pop();
-    if (!changes) return null;
-    this.#undone.push(changes);
-    return onTopOf(inverse(changes), current);
+  undo(id, current) {
+    const set = this.#done.pop();
+    if (!set) return null;
+    this.#undone.push({ ...set, ids: [...set.ids, id] });
+    return backwards(set, current);
   }
 
   /**
-   * What to apply to do again what was taken back last; null when there is nothing.
+   * What to do to do again what was taken back last; null when there is nothing.
    *
+   * @param {string} id  of the change set that does it
    * @param {(uid: string) => Shape | null} current
-   * @returns {Change[] | null}
+   * @returns {Move | null}
    */
-  redo(current) {
-    const changes = this.#undone.pop();
-    if (!changes) return null;
-    this.#done.push(changes);
-    return onTopOf(changes, current);
+  redo(id, current) {
+    const set = this.#undone.pop();
+    if (!set) return null;
+    this.#done.push({ ...set, ids: [...set.ids, id] });
+    return { takesBack: newest(set), changes: onTopOf(set.changes, current), status: set.status };
   }
 
   /**
@@ -58,15 +88,64 @@ export class History {
    * @param {Set<string>} uids
    */
   forget(uids) {
-    const without = (/** @type {Change[][]} */ sets) =>
-      sets.map((set) => set.filter(({ after }) => !uids.has(after.uid))).filter((set) => set.length > 0);
-    this.#done = without(this.#done);
-    this.#undone = without(this.#undone);
+    this.#mend((set) => ({ ...set, changes: set.changes.filter(({ after }) => !uids.has(after.uid)) }));
+  }
+
+  /** Somebody else said something else of the image. */
+  forgetStatus() {
+    this.#mend((set) => ({ ...set, status: null }));
+  }
+
+  /**
+   * A change was refused: it never was, and what was done after it was done to the cap as it is without it.
+   *
+   * @param {string} changeSet
+   * @param {string} uid
+   * @param {(cap: Cap) => Cap} without  a cap as it would be if the refused change had never been
+   */
+  refused(changeSet, uid, without) {
+    const isIt = (/** @type {ChangeSet} */ set) => set.ids.includes(changeSet);
+    const place = this.#done.findIndex(isIt);
+    const undone = this.#undone.findIndex(isIt);
+    const later = [...(place < 0 ? [] : this.#done.slice(place + 1)), ...this.#undone.slice(0, undone < 0 ? undefined : undone)];
+    const mended = new Set(later.filter((set) => set.ids[0] !== changeSet));
+    this.#mend((set) => {
+      if (isIt(set)) return { ...set, changes: set.changes.filter(({ after }) => after.uid !== uid) };
+      return mended.has(set) ? { ...set, changes: set.changes.map((change) => mendedChange(change, uid, without)) } : set;
+    });
+  }
+
+  /** A change of status was refused. @type {(changeSet: string) => void} */
+  refusedStatus(changeSet) {
+    this.#mend((set) => (set.ids.includes(changeSet) ? { ...set, status: null } : set));
+  }
+
+  /** @type {(mend: (set: ChangeSet) => ChangeSet) => void} */
+  #mend(mend) {
+    const mended = (/** @type {ChangeSet[]} */ sets) =>
+      sets.map(mend).filter(({ changes, status }) => changes.length > 0 || status);
+    this.#done = mended(this.#done);
+    this.#undone = mended(this.#undone);
   }
 
   get depth() {
     return { undo: this.#done.length, redo: this.#undone.length };
   }
+}
+
+/** What takes a set back. @type {(set: ChangeSet, current: (uid: string) => Shape | null) => Move} */
+export function backwards(set, current) {
+  const { changes, status } = set;
+  return {
+    takesBack: newest(set),
+    changes: onTopOf(inverse(changes), current),
+    status: status && { before: status.after, after: status.before },
+  };
+}
+
+/** @type {(set: ChangeSet) => string} */
+function newest({ ids }) {
+  return ids[ids.length - 1];
 }
 
 /**
@@ -81,4 +160,11 @@ function onTopOf(changes, current) {
     const before = current(after.uid);
     return { before, after: { ...after, revision: before?.revision ?? 0 } };
   });
+}
+
+/** @type {(change: Change, uid: string, without: (cap: Cap) => Cap) => Change} */
+function mendedChange(change, uid, without) {
+  if (change.after.uid !== uid) return change;
+  const mended = (/** @type {Shape} */ shape) => ({ ...shape, cap: without(shape.cap) });
+  return { before: change.before && mended(change.before), after: mended(change.after) };
 }

@@ -1,5 +1,5 @@
 /**
- * The annotations as the server last told of them.
+ * Annotations, and the status of images, as the server last told of them.
  *
  * @module
  */
@@ -9,6 +9,8 @@
 export class Confirmed {
   /** @type {Map<string, Annotation>} */
   #annotations = new Map();
+  /** By the number of the image. @type {Map<number, import("../protocol.js").Status>} */
+  statuses = new Map();
 
   /** @type {(uid: string) => Annotation | null} */
   get(uid) {

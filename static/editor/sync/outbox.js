@@ -8,13 +8,23 @@
 
 import { keyOf, storedUnder } from "./stored_edits.js";
 
-/** @typedef {import("../protocol.js").Edit} Edit */
-/** @typedef {{key: string, set: number, held: boolean, edit: Edit}} Entry  `held` back until a person has decided */
+/** @typedef {import("../protocol.js").Edit} CapEdit */
+/** @typedef {import("../protocol.js").StatusEdit} StatusEdit */
+/** @typedef {CapEdit | StatusEdit} Edit */
+/** @typedef {{key: string, set: number, held: boolean, edit: Edit, text: string}} Entry  `held` back until a person has decided */
+
+/** How much is sent at once: the server answers a piece in about a second. */
+const PIECE = { edits: 100, characters: 500_000 };
+
+/** @type {(edit: Edit) => edit is CapEdit} */
+export function isOfCap(edit) {
+  return "annotation" in edit;
+}
 
 export class Outbox {
   /** By the id of the edit, in the order of sending. @type {Map<string, Entry>} */
   #entries = new Map();
-  /** The same by annotation. @type {Map<string, Entry[]>} */
+  /** Those of caps by annotation. @type {Map<string, Entry[]>} */
   #ofAnnotation = new Map();
   /** What the storage had no room for. @type {Set<Entry>} */
   #unkept = new Set();
@@ -60,9 +70,9 @@ export class Outbox {
   /** @type {(edit: Edit, where: {set: number, index: number, stored?: string}) => void} */
   #put(edit, { set, index, stored }) {
     if (this.#entries.has(edit.id)) return;
-    const entry = { key: keyOf(this.#prefix, set, index), set, held: false, edit };
+    const entry = { key: keyOf(this.#prefix, set, index), set, held: false, edit, text: JSON.stringify(edit) };
     this.#entries.set(edit.id, entry);
-    this.#ofAnnotation.set(edit.annotation, [...this.#entriesOf(edit.annotation), entry]);
+    if (isOfCap(edit)) this.#ofAnnotation.set(edit.annotation, [...this.#entriesOf(edit.annotation), entry]);
     this.#next = Math.max(this.#next, set + 1);
     if (stored !== entry.key) this.#keep(entry);
   }
@@ -72,13 +82,16 @@ export class Outbox {
     return this.#ofAnnotation.get(uid) ?? [];
   }
 
-  /** The change set to send next; empty when nothing is to be sent. */
+  /** What is to be sent next, a change set or a piece of one; empty when there is nothing. */
   head() {
     /** @type {Entry[]} */
     const head = [];
+    let characters = 0;
     for (const entry of this.#entries.values()) {
       if (entry.held) continue;
-      if (head.length && entry.set !== head[0].set) break;
+      characters += entry.text.length;
+      const full = head.length === PIECE.edits || characters > PIECE.characters;
+      if (head.length && (full || entry.set !== head[0].set)) break;
       head.push(entry);
     }
     return head.map(({ edit }) => edit);
@@ -94,9 +107,22 @@ export class Outbox {
     return this.#entries.get(id)?.edit ?? null;
   }
 
-  /** The newest edit of an annotation. @type {(uid: string) => Edit | null} */
+  /** The edits of an annotation, oldest first. @type {(uid: string) => CapEdit[]} */
+  of(uid) {
+    return this.#entriesOf(uid).flatMap(({ edit }) => (isOfCap(edit) ? edit : []));
+  }
+
+  /** The newest edit of an annotation. @type {(uid: string) => CapEdit | null} */
   lastOf(uid) {
-    return this.#entriesOf(uid).at(-1)?.edit ?? null;
+    return this.of(uid).at(-1) ?? null;
+  }
+
+  /** Puts another edit in the place of the one with its id. @type {(edit: Edit) => void} */
+  rewrite(edit) {
+    const entry = this.#entries.get(edit.id);
+    if (!entry) return;
+    Object.assign(entry, { edit, text: JSON.stringify(edit) });
+    this.#keep(entry);
   }
 
   /** How many edits wait for an acknowledgement: all but those that wait for a person. */
@@ -123,7 +149,7 @@ export class Outbox {
   /**
    * Puts one edit in place of all those of its annotation and holds it back until a person has decided.
    *
-   * @param {Edit} edit
+   * @param {CapEdit} edit
    */
   hold(edit) {
     this.drop(edit.annotation);
@@ -138,11 +164,13 @@ export class Outbox {
 
   /** @type {(entry: Entry) => void} */
   #forget(entry) {
-    const { id, annotation } = entry.edit;
-    const others = this.#entriesOf(annotation).filter((other) => other !== entry);
-    this.#entries.delete(id);
-    if (others.length) this.#ofAnnotation.set(annotation, others);
-    else this.#ofAnnotation.delete(annotation);
+    const { edit } = entry;
+    this.#entries.delete(edit.id);
+    if (isOfCap(edit)) {
+      const others = this.#entriesOf(edit.annotation).filter((other) => other !== entry);
+      if (others.length) this.#ofAnnotation.set(edit.annotation, others);
+      else this.#ofAnnotation.delete(edit.annotation);
+    }
     this.#unkept.delete(entry);
     this.#take(entry.key);
   }
@@ -157,7 +185,7 @@ export class Outbox {
   #keep(entry) {
     try {
       if (!this.#storage) throw new Error("no storage");
-      this.#storage.setItem(entry.key, JSON.stringify(entry.edit));
+      this.#storage.setItem(entry.key, entry.text);
       this.#unkept.delete(entry);
       return true;
     } catch {

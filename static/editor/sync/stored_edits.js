@@ -6,7 +6,7 @@
  * @module
  */
 
-/** @typedef {import("../protocol.js").Edit} Edit */
+/** @typedef {import("./outbox.js").Edit} Edit */
 /** @typedef {{key: string, set: number, index: number, edits: Edit[]}} Stored  `index` of the first of the edits */
 
 const SUFFIX = /^(\d{9,})(?:\.(\d{6,}))?$/;
@@ -43,5 +43,5 @@ function editsIn(text) {
 
 /** @type {(value: unknown) => value is Edit} */
 function isEdit(value) {
-  return typeof value === "object" && value !== null && "id" in value && "annotation" in value;
+  return typeof value === "object" && value !== null && "id" in value && ("annotation" in value || "after" in value);
 }

@@ -1,31 +1,33 @@
 /**
- * Keeps the store and the server in step: local changes become edits in the outbox, one change set in
- * flight at a time; outcomes and other people's changes flow back into the store.
+ * Keeps the store and the server in step: local changes become edits in the outbox, one piece of a change set
+ * in flight at a time; outcomes and other people's changes flow back into the store.
  *
  * @module
  */
 
-import { same } from "../geometry/same.js";
-import { shapeOfAnnotation } from "../geometry/shapes.js";
 import { newId } from "../ids.js";
-import { stepsOf } from "../state/changes.js";
-import { History } from "../state/history.js";
-import { Confirmed } from "./confirmed.js";
+import { backwards } from "../state/history.js";
+import { editOfStatus, editsOfChange } from "./edits.js";
+import { Local } from "./local.js";
+import { isOfCap } from "./outbox.js";
+import { Recalling, changeSetOf } from "./recalling.js";
+import { decide, refuse, settle, takeNews } from "./settle.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Annotation} Annotation */
-/** @typedef {import("../protocol.js").Edit} Edit */
 /** @typedef {import("../protocol.js").Outcome} Outcome */
+/** @typedef {import("../protocol.js").Recalled} Recalled */
+/** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
 /** @typedef {import("../state/changes.js").Change} Change */
+/** @typedef {import("../state/history.js").Move} Move */
 /** @typedef {import("../state/store.js").Store} Store */
+/** @typedef {import("./local.js").OpenConflict} OpenConflict */
+/** @typedef {import("./outbox.js").Edit} Edit */
 /** @typedef {import("./outbox.js").Outbox} Outbox */
+/** @typedef {"undo" | "redo"} Way */
 
-/**
- * An edit that was made on another revision than the server has, and the other side of it.
- *
- * @typedef {{uid: string, image: number, theirs: Annotation, user: string}} OpenConflict
- */
+/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, changes: Change[], stayed: number}} Travelled */
 
 /**
  * @typedef {Object} Wires
@@ -33,52 +35,53 @@ import { Confirmed } from "./confirmed.js";
  * @property {(message: ToServer) => boolean} send
  * @property {() => void} stalled  the server has not answered for long
  * @property {() => void} progress  what waits has changed
- * @property {(text: string) => void} refused
+ * @property {(edit: Edit, reason: string) => void} refused
+ * @property {(travelled: Travelled) => void} travelled
+ * @property {(why: "nothing" | "offline", way: Way) => void} stuck  nothing can be undone, or done again
  */
 
 const PATIENCE_MS = 15000;
 
 export class Sync {
-  /** @type {Outbox | null} */
-  #outbox = null;
-  /** @type {Map<number, History>} */
-  #histories = new Map();
-  #confirmed = new Confirmed();
-  /** The ids of the edits in flight. @type {Set<string>} */
-  #flying = new Set();
+  #local;
+  #recalling = new Recalling();
+  /** The edits in flight, by id, as they were sent. @type {Map<string, Edit>} */
+  #flying = new Map();
   #timer = 0;
   #wires;
-  image = 0;
-  /** @type {OpenConflict[]} */
-  conflicts = [];
+  /** The image whose status was the last thing changed here, and which came after it. @type {{image: number, next: number | null} | null} */
+  #finished = null;
 
   /** @param {Wires} wires */
   constructor(wires) {
     this.#wires = wires;
+    this.#local = new Local(wires.store);
   }
 
-  get history() {
-    return this.#historyOf(this.image);
+  get image() {
+    return this.#local.image;
   }
 
-  /** @type {(image: number) => History} */
-  #historyOf(image) {
-    let history = this.#histories.get(image);
-    if (!history) this.#histories.set(image, (history = new History()));
-    return history;
+  get conflicts() {
+    return this.#local.conflicts;
   }
 
   get waiting() {
-    return this.#outbox?.waiting ?? 0;
+    return this.#local.outbox.waiting;
   }
 
   get kept() {
-    return this.#outbox?.kept ?? true;
+    return this.#local.outbox.kept;
+  }
+
+  /** What people say of the image on screen. */
+  get status() {
+    return this.#local.statusOf(this.image);
   }
 
   /** @type {(outbox: Outbox) => void} */
   use(outbox) {
-    this.#outbox = outbox;
+    this.#local.outbox = outbox;
   }
 
   /** The connection is up (again): whatever was in flight may be lost, so send it once more. */
@@ -91,6 +94,14 @@ export class Sync {
   pause() {
     clearTimeout(this.#timer);
     this.#flying.clear();
+    if (this.#recalling.lost()) this.#wires.stuck("offline", "undo");
+  }
+
+  /** The server is there: it has said something. */
+  heard() {
+    if (this.#flying.size === 0) return;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#wires.stalled(), PATIENCE_MS);
   }
 
   /**
@@ -99,8 +110,8 @@ export class Sync {
    * @param {string} reason
    */
   giveUp(reason) {
-    const edits = [...this.#flying].flatMap((id) => this.#outbox?.get(id) ?? []);
-    this.#apply(edits.flatMap((edit) => this.#refuse(edit, reason)));
+    const edits = [...this.#flying.keys()].flatMap((id) => this.#local.outbox.get(id) ?? []);
+    for (const edit of edits) this.#refuse(edit, reason);
     this.pause();
   }
 
@@ -111,44 +122,115 @@ export class Sync {
    */
   commit(changes) {
     if (changes.length === 0) return;
-    this.history.push(changes);
-    this.#carryOut(changes);
+    const id = newId();
+    this.#finished = null;
+    this.#recalling.drop();
+    this.#local.historyOf(this.image).push({ ids: [id], changes, status: null });
+    this.#carryOut(this.image, id, { takesBack: "", changes, status: null });
   }
 
+  /** Says something of the image on screen, to be undone in one step. @type {(after: Status) => void} */
+  say(after) {
+    const [id, before] = [newId(), this.status];
+    if (before === after) return;
+    const status = { before, after };
+    this.#finished = { image: this.image, next: null };
+    this.#recalling.drop();
+    this.#local.historyOf(this.image).push({ ids: [id], changes: [], status });
+    this.#carryOut(this.image, id, { takesBack: "", changes: [], status });
+  }
+
+  /** Takes back what was done last here; what this page does not remember the journal does. */
   undo() {
-    return this.#carryOut(this.history.undo((uid) => this.#current(uid)));
+    const image = this.#finished?.image ?? this.image;
+    this.#finished = null;
+    this.#travel("undo", image);
   }
 
   redo() {
-    return this.#carryOut(this.history.redo((uid) => this.#current(uid)));
+    this.#finished = null;
+    this.#travel("redo", this.image);
   }
 
-  /** @type {(uid: string) => Shape | null} */
-  #current(uid) {
-    const known = this.#confirmed.get(uid);
-    return this.#wires.store.get(uid) ?? (known ? shapeOfAnnotation(known) : null);
+  /** @type {(way: Way, image: number) => void} */
+  #travel(way, image) {
+    const local = this.#local;
+    const id = newId();
+    const move = local.historyOf(image)[way](id, (uid) => local.current(uid));
+    if (!move) return this.#ask({ image, way, change_set: null });
+    const overtaken = move.status && move.status.before !== local.statusOf(image);
+    const possible = overtaken ? { ...move, status: null } : move;
+    if (possible.changes.length === 0 && !possible.status) return this.#travel(way, image);
+    this.#carryOut(image, id, possible);
+    this.#wires.travelled({ image, changes: move.changes, stayed: 0 });
   }
 
-  /** @type {(changes: Change[] | null) => Change[] | null} */
-  #carryOut(changes) {
-    if (!changes) return null;
-    const edits = changes.flatMap((change) => this.#editsOf(change));
-    this.#wires.store.apply(changes);
-    if (edits.length) this.#outbox?.add(edits);
-    for (const { after } of changes) this.#foldIntoHeld(after);
+  /** Takes back a change set of the image's history, whoever made it. @type {(image: number, changeSet: number) => void} */
+  takeBack(image, changeSet) {
+    this.#finished = null;
+    this.#ask({ image, way: "undo", change_set: changeSet });
+  }
+
+  /** @type {(question: import("./recalling.js").Question) => void} */
+  #ask(question) {
+    this.#recalling.ask(question);
+    if (!this.pump()) {
+      this.#recalling.lost();
+      this.#wires.stuck("offline", question.way);
+    }
+  }
+
+  /** The journal has answered. @type {(recalled: Recalled) => void} */
+  recalled(recalled) {
+    const question = this.#recalling.answered();
+    if (question?.image === this.image) {
+      if (recalled.reversal) this.#takeBack(recalled.reversal, question.way, question.change_set !== null);
+      else this.#wires.stuck("nothing", question.way);
+    }
     this.pump();
-    return changes;
   }
 
-  /** @type {(change: Change) => Edit[]} */
-  #editsOf(change) {
-    const { uid } = change.after;
-    if (this.#outbox?.holds(uid)) return [];
-    const last = this.#outbox?.lastOf(uid);
-    const base = last ? last.base + 1 : (change.before?.revision ?? 0);
-    return stepsOf(change).map((cap, i) => {
-      return { id: newId(), annotation: uid, image: this.image, base: base + i, cap };
+  /** Asks the journal, unless this page has come to remember what is asked. @returns {boolean} false where it cannot */
+  #askJournal() {
+    const question = this.#recalling.first;
+    if (question?.change_set === null && this.#local.historyOf(question.image).depth[question.way]) {
+      this.#recalling.skip();
+      this.#travel(question.way, question.image);
+      return true;
+    }
+    return this.#recalling.next(this.#wires.send);
+  }
+
+  /** @type {(reversal: import("../protocol.js").Reversal, way: Way, anew: boolean) => void} */
+  #takeBack(reversal, way, anew) {
+    const local = this.#local;
+    for (const { annotation } of reversal.returns) local.confirmed.put(annotation);
+    const set = changeSetOf(reversal);
+    const move = backwards(set, (uid) => local.current(uid));
+    const id = newId();
+    const history = local.historyOf(this.image);
+    if (anew) history.push({ ids: [id], changes: move.changes, status: move.status });
+    else if (way === "undo") history.wasUndone({ ...set, ids: [...set.ids, id] });
+    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status });
+    if (move.changes.length || move.status)
+      this.#carryOut(this.image, id, anew ? { ...move, takesBack: "" } : move);
+    this.#wires.travelled({ image: this.image, changes: move.changes, stayed: reversal.changed_since });
+  }
+
+  /** @type {(image: number, changeSet: string, move: Move) => void} */
+  #carryOut(image, changeSet, { takesBack, changes, status }) {
+    const { outbox, store } = this.#local;
+    const whence = { image, changeSet, takesBack };
+    const edits = changes.map((change) => (outbox.holds(change.after.uid) ? [] : editsOfChange(change, whence)));
+    const after = changes.map((change, i) => {
+      const revision = (change.before?.revision ?? 0) + edits[i].length;
+      return { ...change, after: { ...change.after, revision } };
     });
+    store.apply(after);
+    const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : [])];
+    if (all.length) outbox.add(all);
+    for (const change of changes) this.#foldIntoHeld(change.after);
+    this.pump();
   }
 
   /**
@@ -157,35 +239,38 @@ export class Sync {
    * @type {(shape: Shape) => void}
    */
   #foldIntoHeld(shape) {
-    const held = this.#outbox?.holds(shape.uid) ? this.#outbox.lastOf(shape.uid) : null;
-    if (held) this.#outbox?.hold({ ...held, cap: shape.deleted ? null : shape.cap });
+    const { outbox } = this.#local;
+    const held = outbox.holds(shape.uid) ? outbox.lastOf(shape.uid) : null;
+    if (held) outbox.hold({ ...held, cap: shape.deleted ? null : shape.cap });
   }
 
-  /** Sends the next change set, unless one is on its way. */
+  /** Sends what is next, unless something is on its way. @returns {boolean} whether anything is, or could be */
   pump() {
-    this.#wires.progress();
-    const edits = this.#flying.size ? [] : (this.#outbox?.head() ?? []);
-    if (edits.length === 0 || !this.#wires.send({ type: "edits", edits })) return;
-    this.#flying = new Set(edits.map(({ id }) => id));
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#wires.stalled(), PATIENCE_MS);
+    const { outbox } = this.#local;
+    const { progress, send } = this.#wires;
+    progress();
+    if (this.#flying.size) return true;
+    const edits = outbox.head();
+    if (edits.length === 0) return this.#askJournal();
+    const [caps, statuses] = [edits.filter(isOfCap), edits.flatMap((edit) => (isOfCap(edit) ? [] : edit))];
+    if (!send({ type: "edits", edits: caps, statuses })) return false;
+    this.#flying = new Map(edits.map((edit) => [edit.id, edit]));
+    this.heard();
+    return true;
   }
 
   /**
    * An image as the store has it, with what is still unacknowledged applied over it.
    *
-   * @param {number} image
+   * @param {import("../protocol.js").Image} image
    * @param {Annotation[]} annotations
    */
   open(image, annotations) {
-    this.image = image;
-    this.history.forget(this.#confirmed.refresh(image, annotations));
-    const all = [...this.#confirmed.deletedOf(image), ...annotations];
-    const shapes = new Map(all.map((known) => [known.uid, shapeOfAnnotation(known)]));
-    for (const edit of this.#outbox?.edits() ?? []) {
-      if (edit.image === image) overlay(shapes, edit);
-    }
-    this.#wires.store.replace([...shapes.values()]);
+    this.#local.open(image, annotations);
+    const finished = this.#finished;
+    if (!finished || (finished.next === null && image.id === finished.image)) return;
+    if (finished.next === null) finished.next = image.id;
+    else if (image.id !== finished.next) this.#finished = null;
   }
 
   /** What became of edits that were sent. @type {(outcomes: Outcome[]) => void} */
@@ -197,54 +282,24 @@ export class Sync {
 
   /** @type {(changes: Change[]) => void} */
   #apply(changes) {
-    if (changes.length) this.#wires.store.apply(changes);
+    if (changes.length) this.#local.store.apply(changes);
   }
 
   /** Ends an edit; returns what that changes in the store. @type {(outcome: Outcome) => Change[]} */
   #settle(outcome) {
-    const edit = this.#outbox?.get(outcome.edit);
+    const edit = this.#local.outbox.get(outcome.edit);
+    const sent = this.#flying.get(outcome.edit);
     this.#flying.delete(outcome.edit);
-    if (!edit) return [];
-    if (outcome.outcome === "refused") return this.#refuse(edit, outcome.reason);
-    if (outcome.outcome === "conflict") return this.#ask(edit, outcome.theirs, outcome.user);
-    this.#outbox?.acknowledged(edit.id);
-    return this.#adopt(outcome.annotation);
+    // One that was rewritten meanwhile goes out once more, and this answer is not about it.
+    if (!edit || (sent && sent !== edit && outcome.outcome !== "accepted")) return [];
+    if (outcome.outcome === "refused") this.#wires.refused(edit, outcome.reason);
+    return settle(this.#local, edit, outcome);
   }
 
-  /**
-   * Takes the server's word for a cap, unless newer words of ours are still to be sent.
-   *
-   * @param {Annotation} annotation
-   * @returns {Change[]} what that changes in the store
-   */
-  #adopt(annotation) {
-    this.#confirmed.put(annotation);
-    if (annotation.image !== this.image || this.#outbox?.lastOf(annotation.uid)) return [];
-    const before = this.#wires.store.get(annotation.uid);
-    const shape = shapeOfAnnotation(annotation);
-    const cap = before && same(before.cap, shape.cap) ? before.cap : shape.cap;
-    return [{ before, after: { ...shape, cap } }];
-  }
-
-  /** Leaves it to the person which side of a conflict is kept. @type {(edit: Edit, theirs: Annotation, user: string) => Change[]} */
-  #ask(edit, theirs, user) {
-    const last = this.#outbox?.lastOf(edit.annotation) ?? edit;
-    this.#outbox?.hold({ ...edit, cap: last.cap });
-    this.#confirmed.put(theirs);
-    this.conflicts = this.conflicts.filter(({ uid }) => uid !== theirs.uid);
-    this.conflicts.push({ uid: theirs.uid, image: edit.image, theirs, user });
-    return [];
-  }
-
-  /** Goes back to what the server has. @type {(edit: Edit, reason: string) => Change[]} */
+  /** @type {(edit: Edit, reason: string) => void} */
   #refuse(edit, reason) {
-    this.#outbox?.drop(edit.annotation);
-    this.#historyOf(edit.image).forget(new Set([edit.annotation]));
-    this.#wires.refused(reason);
-    const known = this.#confirmed.get(edit.annotation);
-    if (known) return this.#adopt(known);
-    const before = this.#wires.store.get(edit.annotation);
-    return before ? [{ before, after: { ...before, deleted: true } }] : [];
+    this.#wires.refused(edit, reason);
+    this.#apply(refuse(this.#local, edit));
   }
 
   /**
@@ -254,15 +309,7 @@ export class Sync {
    * @param {"mine" | "theirs"} whose
    */
   resolve(conflict, whose) {
-    const mine = this.#outbox?.lastOf(conflict.uid);
-    this.conflicts = this.conflicts.filter((other) => other !== conflict);
-    this.#outbox?.drop(conflict.uid);
-    this.#historyOf(conflict.image).forget(new Set([conflict.uid]));
-    if (whose === "mine" && mine) {
-      this.#outbox?.add([{ ...mine, id: newId(), base: conflict.theirs.revision }]);
-    } else {
-      this.#apply(this.#adopt(conflict.theirs));
-    }
+    this.#apply(decide(this.#local, conflict, whose));
     this.pump();
   }
 
@@ -273,26 +320,13 @@ export class Sync {
    * @param {Annotation[]} annotations
    */
   changed(image, annotations) {
-    const revision = (/** @type {string} */ uid) => this.#confirmed.get(uid)?.revision ?? 0;
-    const newer = annotations.filter((annotation) => annotation.revision > revision(annotation.uid));
-    this.#historyOf(image).forget(new Set(newer.map(({ uid }) => uid)));
-    const current = annotations.filter((annotation) => annotation.revision >= revision(annotation.uid));
-    this.#apply(current.flatMap((annotation) => this.#adopt(annotation)));
+    this.#apply(takeNews(this.#local, image, annotations));
   }
-}
 
-/** @type {(shapes: Map<string, Shape>, edit: Edit) => void} */
-function overlay(shapes, edit) {
-  const before = shapes.get(edit.annotation);
-  const cap = edit.cap ?? before?.cap;
-  if (!cap) return;
-  shapes.set(edit.annotation, {
-    uid: edit.annotation,
-    cap,
-    revision: before?.revision ?? 0,
-    deleted: edit.cap === null,
-    whole: before?.whole ?? null,
-    centre: before?.centre ?? null,
-    score: null,
-  });
+  /** The status of an image is another now. @type {(image: number, status: Status, own: boolean) => void} */
+  statusChanged(image, status, own) {
+    if (!own) this.#local.historyOf(image).forgetStatus();
+    this.#local.confirmed.statuses.set(image, status);
+    this.#wires.progress();
+  }
 }

@@ -40,7 +40,7 @@ function sections() {
 
 /** @type {(title: string, rows: Row[]) => HTMLElement} */
 function section(title, rows) {
-  const entries = joinedRows(rows).flatMap(({ keys, words }) => [
+  const entries = joinedRows(rows.filter(({ keys }) => keys.length)).flatMap(({ keys, words }) => [
     element("dt", { text: keys.join(" ").replaceAll(" Shift+", " ") }),
     element("dd", { text: words }),
   ]);

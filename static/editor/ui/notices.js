@@ -2,6 +2,9 @@ import { element } from "./dom.js";
 
 /** @typedef {import("../protocol.js").Notice["level"]} Level */
 
+/** What can be done about a sentence, and what happens when it is there no longer. @typedef {{word: string, act: () => void, closed?: () => void}} Remedy */
+/** @typedef {(text: string, level?: Level, remedy?: Remedy | null) => void} Say */
+
 const SHOWN_MS = { info: 4000, warning: 9000, error: 0 };
 const MOST = 4;
 
@@ -9,7 +12,7 @@ const MOST = 4;
  * Sentences for the person at this tab. Errors stay until they are closed.
  *
  * @param {HTMLElement} host
- * @returns {(text: string, level?: Level) => void}
+ * @returns {Say}
  */
 export function noticesIn(host) {
   const list = element("div", {
@@ -18,18 +21,26 @@ export function noticesIn(host) {
   });
   list.dataset.fairyringChrome = "";
   host.append(list);
-  return (text, level = "info") => {
-    const close = element("button", { text: "×", attributes: { "aria-label": "Close", type: "button" } });
-    const notice = element(
-      "div",
-      { class: `fairyring-notice is-${level}` },
-      element("span", { text }),
-      close,
-    );
-    close.addEventListener("click", () => notice.remove());
-    for (const old of list.children) if (old.firstChild?.textContent === text) old.remove();
+  /** What to do when a sentence goes. @type {WeakMap<Element, () => void>} */
+  const closing = new WeakMap();
+  const remove = (/** @type {Element} */ notice) => {
+    if (!notice.isConnected) return;
+    notice.remove();
+    closing.get(notice)?.();
+  };
+  return (text, level = "info", remedy = null) => {
+    const notice = element("div", { class: `fairyring-notice is-${level}` }, element("span", { text }));
+    if (remedy) {
+      const { word, act } = remedy;
+      const attributes = { type: "button" };
+      notice.append(element("button", { class: "is-remedy", text: word, click: act, attributes }));
+    }
+    const attributes = { type: "button", "aria-label": "Close" };
+    notice.append(element("button", { text: "×", click: () => remove(notice), attributes }));
+    if (remedy?.closed) closing.set(notice, remedy.closed);
+    for (const old of list.children) if (old.firstChild?.textContent === text) remove(old);
     list.append(notice);
-    while (list.children.length > MOST) list.firstElementChild?.remove();
-    if (SHOWN_MS[level]) setTimeout(() => notice.remove(), SHOWN_MS[level]);
+    while (list.children.length > MOST) remove(list.children[0]);
+    if (SHOWN_MS[level]) setTimeout(() => remove(notice), SHOWN_MS[level]);
   };
 }

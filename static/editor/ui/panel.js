@@ -9,6 +9,7 @@
  * @property {(image: number, select: string | null) => void} open
  * @property {(command: string) => void} perform
  * @property {(tool: string) => void} use
+ * @property {(image: number, changeSet: number) => void} takeBack  a change set of the image's history
  */
 
 /** @type {(callbacks: Callbacks) => void} */
@@ -25,13 +26,17 @@ export function listenToPanel(callbacks) {
 }
 
 /** @type {(target: Element, callbacks: Callbacks) => void} */
-function carryOut(target, { open, perform, use }) {
-  const button = target.closest("[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool]");
+function carryOut(target, { open, perform, use, takeBack }) {
+  const button = target.closest(
+    "[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool], [data-fairyring-recall]",
+  );
   if (!(button instanceof HTMLElement)) return;
-  const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool } = button.dataset;
+  const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool, fairyringRecall, fairyringImage } =
+    button.dataset;
   if (fairyringOpen) open(Number(fairyringOpen), fairyringSelect || null);
   if (fairyringCommand) perform(fairyringCommand);
   if (fairyringTool) use(fairyringTool);
+  if (fairyringRecall) takeBack(Number(fairyringImage), Number(fairyringRecall));
 }
 
 /**

@@ -2,7 +2,6 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { changed, inverse, stepsOf } from "../../../static/editor/state/changes.js";
-import { History } from "../../../static/editor/state/history.js";
 import { capOf, shapeOf, triangle } from "../support/caps.js";
 
 const U = { ...shapeOf("u", triangle(0)), revision: 3 };
@@ -44,40 +43,4 @@ test("the inverse goes back in the opposite order and gives a prediction free", 
     ],
   );
   assert.deepEqual(back[1].after, U);
-});
-
-test("undoing is made on the revision that the cap has now", () => {
-  const history = new History();
-  history.push([{ before: U, after: MOVED }]);
-  const now = { ...MOVED, revision: 8 };
-  assert.deepEqual(
-    history.undo(() => now),
-    [{ before: now, after: { ...U, revision: 8 } }],
-  );
-  assert.deepEqual(history.depth, { undo: 0, redo: 1 });
-  assert.deepEqual(history.redo(() => ({ ...U, revision: 9 }))?.[0].after, { ...MOVED, revision: 9 });
-});
-
-test("a new change ends what could be redone; what others changed cannot be undone", () => {
-  const history = new History();
-  history.push([{ before: U, after: MOVED }]);
-  history.undo(() => MOVED);
-  const v = shapeOf("v", triangle(3));
-  history.push([
-    { before: U, after: MOVED },
-    { before: null, after: v },
-  ]);
-  assert.equal(
-    history.redo(() => U),
-    null,
-  );
-  history.forget(new Set(["u"]));
-  assert.deepEqual(
-    history.undo(() => v)?.map(({ after }) => after.uid),
-    ["v"],
-  );
-  assert.equal(
-    history.undo(() => v),
-    null,
-  );
 });

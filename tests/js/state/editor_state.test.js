@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
 
+import { changed } from "../../../static/editor/state/changes.js";
 import {
   acceptAll,
   acceptSelected,
@@ -12,6 +13,7 @@ import { movedShape } from "../../../static/editor/geometry/shapes.js";
 import { SQUARE, capOf, prediction, triangle } from "../support/caps.js";
 import { openState, storedShape } from "../support/state.js";
 
+/** @typedef {import("../../../static/editor/geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../../static/editor/state/changes.js").Change} Change */
 /** @typedef {import("../../../static/editor/state/editor_state.js").EditorState} EditorState */
 
@@ -80,6 +82,74 @@ test("a cap that somebody else deletes is deselected, the others stay", () => {
   state.select(["u", "v"]);
   state.store.apply([{ before: U, after: { ...U, deleted: true } }]);
   assert.deepEqual([...state.selection.uids], ["v"]);
+});
+
+/** Somebody else's change of a stored cap comes in. @type {(state: EditorState, after: Partial<Shape>) => void} */
+function comeIn(state, after) {
+  const before = state.items.get("u");
+  if (before) state.store.apply([{ before, after: { ...before, ...after } }]);
+}
+
+/** The revisions on which what was committed was made. @type {(committed: Change[][]) => (number | undefined)[]} */
+const bases = (committed) => committed.flat().map(({ before }) => before?.revision);
+
+test("a drag and a nudge are of the revision they were begun on, whatever comes in meanwhile", (context) => {
+  context.mock.timers.enable({ apis: ["setTimeout"] });
+  const { state, committed } = openState({ shapes: [{ ...U, revision: 13 }] });
+  state.select(["u"]);
+  drag(state, "u", 5);
+  comeIn(state, { revision: 14 });
+  state.commitDrafts();
+  comeIn(state, { revision: 20 });
+  nudge(state, 1, 0);
+  comeIn(state, { revision: 21 });
+  context.mock.timers.tick(500);
+  assert.deepEqual(bases(committed), [13, 20]);
+});
+
+test("what was taken hold of before the change came in is of the old revision, also where it moves later", () => {
+  const { state, committed } = openState({ shapes: [{ ...U, revision: 13 }] });
+  state.select(["u"]);
+  const held = state.selected[0];
+  comeIn(state, { revision: 14 });
+  state.propose([movedShape(held, 5, 0)]);
+  state.commitDrafts();
+  assert.deepEqual(bases(committed), [13]);
+});
+
+test("a tool that changes the cap only when the pointer is let go changes it as it was when it was pressed", () => {
+  const { state, committed } = openState({ shapes: [{ ...U, revision: 13 }] });
+  state.select(["u"]);
+  state.beginGesture();
+  comeIn(state, { revision: 14 });
+  for (let i = 0; i < 2; i++) {
+    const [shape] = state.selected;
+    state.commit([changed(shape, { ...shape, cap: { ...shape.cap, doubtful: i === 0 } })]);
+    state.endGesture();
+  }
+  assert.deepEqual(bases(committed), [13, 14]);
+});
+
+test("a cap that somebody deletes while it is dragged stays in hand, and is committed when it is let go", () => {
+  const { state, committed } = openState({ shapes: [{ ...U, revision: 13 }] });
+  state.select(["u"]);
+  drag(state, "u", 5);
+  comeIn(state, { revision: 14, deleted: true });
+  assert.deepEqual([[...state.selection.uids], committed], [["u"], []]);
+  state.commitDrafts();
+  assert.deepEqual([bases(committed), committed[0][0].after.deleted], [[13], false]);
+});
+
+test("a fresh copy of the image, after a break, leaves what is being nudged in hand", () => {
+  const { state, committed } = openState({ shapes: [U] });
+  state.select(["u"]);
+  nudge(state, 2, 0);
+  const { image } = state;
+  assert.ok(image);
+  state.store.replace([{ ...U, revision: 3 }]);
+  state.open({ image, annotations: [], predictions: [], run: null });
+  state.commitDrafts();
+  assert.deepEqual([committed.map(places), bases(committed)], [[[102]], [U.revision]]);
 });
 
 test("the selection follows predictions that become annotations", () => {

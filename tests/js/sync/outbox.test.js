@@ -6,11 +6,14 @@ import { keysWith } from "../../../static/editor/sync/stored_edits.js";
 import { capOf, triangle } from "../support/caps.js";
 import { MemoryStorage } from "../support/memory_storage.js";
 
-/** @typedef {import("../../../static/editor/protocol.js").Edit} Edit */
+/** @typedef {import("../../../static/editor/sync/outbox.js").CapEdit} CapEdit */
+/** @typedef {import("../../../static/editor/sync/outbox.js").Edit} Edit */
+/** @typedef {import("../../../static/editor/sync/outbox.js").StatusEdit} StatusEdit */
 
-/** @type {(id: string, annotation?: string) => Edit} */
-const edit = (id, annotation = "u") => ({ id, annotation, image: 1, base: 0, cap: capOf(triangle(1)) });
-/** @type {(...ids: string[]) => Edit[]} */
+const MADE = { image: 1, change_set: "s", takes_back: "" };
+/** @type {(id: string, annotation?: string, cap?: CapEdit["cap"]) => CapEdit} */
+const edit = (id, annotation = "u", cap = capOf(triangle(1))) => ({ id, annotation, base: 0, cap, ...MADE });
+/** @type {(...ids: string[]) => CapEdit[]} */
 const edits = (...ids) => ids.map((id) => edit(id));
 /** @type {(edits: Edit[]) => string[]} */
 const idsOf = (edits) => edits.map(({ id }) => id);
@@ -34,7 +37,58 @@ test("more than ten edits of one change set keep their order over a reload", () 
   const storage = new MemoryStorage();
   const ids = Array.from({ length: 1200 }, (_, i) => `e${i}`);
   new Outbox(storage, "p:").add(edits(...ids));
-  assert.deepEqual(idsOf(new Outbox(storage, "p:").head()), ids);
+  assert.deepEqual(idsOf(new Outbox(storage, "p:").edits()), ids);
+});
+
+test("a large change set is sent in pieces, in its order, and never together with the next one", () => {
+  const outbox = new Outbox(new MemoryStorage(), "p:");
+  const ids = Array.from({ length: 250 }, (_, i) => `e${i}`);
+  outbox.add(edits(...ids));
+  outbox.add(edits("next"));
+  const pieces = [];
+  for (let head = outbox.head(); head.length; head = outbox.head()) {
+    pieces.push(idsOf(head));
+    for (const { id } of head) outbox.acknowledged(id);
+  }
+  assert.deepEqual(pieces, [ids.slice(0, 100), ids.slice(100, 200), ids.slice(200), ["next"]]);
+});
+
+test("a piece holds few edits where they are long, and one where that is longer than a piece may be", () => {
+  const outbox = new Outbox(null, "p:");
+  const long = capOf(Array.from({ length: 30_000 }, (_, i) => 1000 + i / 2));
+  outbox.add([...["a", "b", "c"].map((id) => edit(id, id, long)), edit("d", "d", capOf([0, 1, 2].flatMap(() => long.visible[0])))]);
+  const sizes = [];
+  for (let head = outbox.head(); head.length; head = outbox.head()) {
+    sizes.push(head.length);
+    for (const { id } of head) outbox.acknowledged(id);
+  }
+  assert.deepEqual(sizes, [2, 1, 1]);
+});
+
+test("a change of status waits and is kept as an edit of a cap is", () => {
+  const storage = new MemoryStorage();
+  const outbox = new Outbox(storage, "p:");
+  /** @type {StatusEdit} */
+  const status = { id: "s", before: "new", after: "annotated", ...MADE };
+  outbox.add(edits("a"));
+  outbox.add([status]);
+  assert.deepEqual(new Outbox(storage, "p:").edits(), [edit("a"), status]);
+  outbox.acknowledged("a");
+  assert.deepEqual([outbox.head(), outbox.waiting], [[status], 1]);
+  outbox.acknowledged("s");
+  assert.equal(storage.length, 0);
+});
+
+test("an edit that is rewritten keeps its place, here and over a reload", () => {
+  const storage = new MemoryStorage();
+  const outbox = new Outbox(storage, "p:");
+  outbox.add(edits("a", "b", "c"));
+  outbox.rewrite({ ...edit("b"), base: 7 });
+  assert.deepEqual(
+    new Outbox(storage, "p:").of("u").map(({ id, base }) => [id, base]),
+    [["a", 0], ["b", 7], ["c", 0]],
+  );
+  assert.equal(outbox.of("u")[1].base, 7);
 });
 
 test("edits added after a reload come after older ones", () => {

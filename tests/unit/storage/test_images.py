@@ -13,11 +13,11 @@ from fairyring.storage.images import (
     list_ids,
     list_images,
     position_in_list,
-    set_status,
     sort_name,
 )
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import add_run
+from fairyring.storage.statuses import set_status
 
 
 def names(project, which, **page):

@@ -159,19 +159,6 @@ def test_an_older_database_is_backed_up_before_it_is_migrated(project, monkeypat
     assert category_names(copy) == ["button"]
 
 
-def test_a_project_of_the_first_version_is_brought_up_to_date_and_keeps_what_it_holds(project):
-    project.write(insert_category("button"))
-    project.write(lambda connection: connection.execute(text("ALTER TABLE image DROP COLUMN statistics")))
-    project.write(
-        lambda connection: connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
-    )
-    project.close()
-    with open_project(project.folder) as upgraded, upgraded.read() as connection:
-        assert connection.execute(text("SELECT count(statistics) FROM image")).scalar_one() == 0
-    assert category_names(project.folder / "project.db") == ["button"]
-    assert category_names(project.folder / "project.db.before-0001-upgrade") == ["button"]
-
-
 def test_a_migration_that_fails_changes_nothing(tmp_path, monkeypatch):
     def fail(config, _revision):
         config.attributes["connection"].execute(text("CREATE TABLE half (id INTEGER)"))
@@ -190,10 +177,14 @@ def test_a_fresh_migration_equals_the_tables(project, tmp_path):
     with other.begin() as connection:
         metadata.create_all(connection)
 
+    def apart(sql):
+        # A foreign key added later stands with its column.
+        return re.sub(r"(\w+) (INTEGER) (CONSTRAINT \w+) (REFERENCES)", r"\1 \2, \3 FOREIGN KEY(\1) \4", sql)
+
     def parts(rows):
         return {
             # A column added later stands behind the last constraint, in its line.
-            name: sorted(part.strip() for part in re.split(r"[,\n]", sql) if part.strip())
+            name: sorted(part.strip() for part in re.split(r"[,\n]", apart(sql)) if part.strip())
             for name, sql in rows
             if name != "alembic_version"
         }
@@ -218,7 +209,7 @@ def test_every_table_is_strict_and_no_number_of_an_annotation_is_used_twice(proj
     assert numbered <= set(metadata.tables)
 
 
-@pytest.mark.parametrize("table", ["edit", "status_change"])
+@pytest.mark.parametrize("table", ["edit", "status_change", "change_set"])
 def test_the_journal_refuses_updates_and_deletions(project, table):
     with project.read() as connection:
         triggers = connection.execute(

@@ -12,11 +12,12 @@ from fairyring.storage.backup import back_up, restore
 from fairyring.storage.contents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.exporting import export_coco
-from fairyring.storage.images import ImageFilter, list_images, set_status
+from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import commit
 from fairyring.storage.project import Project, open_project
 from fairyring.storage.records import Cap, Refused
+from fairyring.storage.statuses import set_status
 from tests.support.edits import edit
 from tests.support.exported import SQUARE, store
 from tests.support.unprivileged import make_read_only, make_writable, nobody, open_folder, state_of

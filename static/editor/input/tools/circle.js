@@ -36,6 +36,8 @@ export class CircleTool {
   #circle = null;
   /** The circle of the selected cap, taken by a handle. @type {{shape: Shape, handle: Handle} | null} */
   #grip = null;
+  /** The circle that was taken has moved. */
+  #moved = false;
   #state;
 
   /** @param {EditorState} state */
@@ -65,6 +67,7 @@ export class CircleTool {
     this.#state.commitDrafts();
     this.#start = press;
     this.#grip = this.#handleAt(press);
+    this.#moved = false;
   }
 
   /** @type {(press: Press) => void} */
@@ -75,6 +78,12 @@ export class CircleTool {
     const dy = hundredths(press.image[1] - start.image[1]);
     if (this.#grip) {
       const { shape, handle } = this.#grip;
+      // Something else, a key, has committed or taken back what is being dragged.
+      if (this.#moved && !this.#state.drafts.has(shape.uid)) {
+        this.#start = this.#grip = null;
+        return;
+      }
+      this.#moved = true;
       const cap = movedHandle(shape.cap, handle, { dx, dy, from: start.image, pull: 0 });
       this.#state.propose([withCap(shape, cap)]);
       return;

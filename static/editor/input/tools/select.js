@@ -144,6 +144,10 @@ export class SelectTool {
     const grip = this.#grip;
     if (!start || !grip) return;
     this.#at = press.screen;
+    if (this.#moved && this.#hasLost(grip)) {
+      this.#grip = null;
+      return;
+    }
     if (!this.#moved && apart(press.screen, start.screen) < (grip.kind === "handle" ? 1 : CLICK_PX)) return;
     this.#moved = true;
     this.#state.selection.hover(null);
@@ -155,6 +159,13 @@ export class SelectTool {
     else if (grip.kind === "band") this.#band(grip, press);
     else this.#state.viewport.panBy(press.screen[0] - this.#last[0], press.screen[1] - this.#last[1]);
     this.#last = press.screen;
+  }
+
+  /** Whether something else, a key, has committed or taken back what is being dragged. @type {(grip: Grip) => boolean} */
+  #hasLost(grip) {
+    if (grip.kind !== "handle" && grip.kind !== "shape") return false;
+    const shapes = grip.kind === "handle" ? [grip.shape] : grip.shapes;
+    return !shapes.every(({ uid }) => this.#state.drafts.has(uid));
   }
 
   /** @type {(grip: Grip & {kind: "handle"}, dx: number, dy: number, alone: boolean) => void} */

@@ -12,8 +12,8 @@ from fairyring.app.jobs.training_labels import divided, labels_at, labels_of_pro
 from fairyring.model.geometry.shapes import Circle
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
-from fairyring.storage.images import set_status
 from fairyring.storage.project import Project
+from fairyring.storage.statuses import set_status
 from tests.support.terminal import sentence, train
 from tests.unit.app.conftest import circle
 from tests.unit.app.jobs.conftest import annotate

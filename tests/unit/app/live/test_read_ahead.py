@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fairyring.app.live.read_ahead import RecentImages
 from fairyring.model.geometry.shapes import Circle
-from fairyring.storage.images import set_status
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
+from fairyring.storage.statuses import set_status
 from tests.support.tab import new_cap
 
 

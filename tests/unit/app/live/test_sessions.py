@@ -11,19 +11,21 @@ from websockets.exceptions import ConnectionClosed
 
 from fairyring.app.protocol import (
     Changed,
+    Edits,
     Hello,
     Layers,
     Notice,
     Open,
+    Outcomes,
     Select,
-    SetStatus,
     Show,
+    StatusChanged,
     Step,
     Toggle,
     Welcome,
 )
 from fairyring.storage.project import Project
-from fairyring.storage.records import Accepted
+from fairyring.storage.records import Accepted, Refused, StatusEdit, StatusStored
 from tests.support.tab import Panel, Tab, new_cap, open_socket, until
 
 
@@ -118,11 +120,41 @@ def test_steps_follow_the_filter(port: int) -> None:
         assert (shown.contents.image.id, shown.position, shown.count) == (3, 0, 1)
 
 
+def approval(number: str) -> StatusEdit:
+    return StatusEdit(id=number, image=1, before="new", after="approved")
+
+
+def test_everybody_on_the_image_hears_of_its_status_and_a_second_opinion_is_refused(port: int) -> None:
+    with Tab(port, name="Ada", image=1) as ada, Tab(port, name="Bo", image=1) as bo:
+        ada.expect(Show)
+        bo.expect(Show)
+        ada.send(Edits(edits=[], statuses=[approval("s1")]))
+        told = StatusChanged(image=1, status="approved", user="Ada")
+        assert (ada.expect(StatusChanged), bo.expect(StatusChanged)) == (told, told)
+        bo.send(Edits(edits=[], statuses=[approval("s2")]))
+        sentence = "Ada has set bed_1.jpg to “approved” meanwhile; it stays so."
+        assert bo.expect(Outcomes).outcomes == [Refused(edit="s2", reason=sentence)]
+
+
+def test_an_edit_of_an_approved_image_reopens_it_for_everybody(port: int) -> None:
+    with Tab(port, name="Ada", image=1) as ada, Tab(port, name="Bo", image=1) as bo:
+        ada.expect(Show)
+        bo.expect(Show)
+        ada.send(Edits(edits=[], statuses=[approval("s1")]))
+        for tab in (ada, bo):
+            assert tab.expect(StatusChanged).status == "approved"
+        bo.edit(new_cap(1))
+        reopened = StatusChanged(image=1, status="annotated", user="Bo")
+        assert ada.expect(StatusChanged) == reopened
+        assert reopened in bo.received
+
+
 def test_a_status_is_stored_with_its_author_and_every_list_follows(port: int, project: Project) -> None:
     with Tab(port, name="Ada", image=1) as ada, Tab(port, name="Bo", image=2) as bo:
         ada.expect(Show)
         bo.expect(Show)
-        ada.send(SetStatus(image=1, status="approved"))
+        ada.send(Edits(edits=[], statuses=[approval("s1")]))
+        assert ada.expect(Outcomes).outcomes == [StatusStored(edit="s1", image=1, status="approved")]
         until(lambda: "fr-badge fr-approved" in ada.panel.html)
         until(lambda: "fr-badge fr-approved" in bo.panel.html)
         with sqlite3.connect(project.folder / "project.db") as database:

@@ -3,9 +3,9 @@
 import pytest
 
 from fairyring.model.geometry.shapes import Circle, fit_of_shape
-from fairyring.storage.images import set_status
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap
+from fairyring.storage.statuses import set_status
 from tests.support.exported import SQUARE, TRIANGLE, store
 
 

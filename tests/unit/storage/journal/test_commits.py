@@ -42,12 +42,12 @@ def test_every_field_of_a_cap_is_kept(beds, square):
             c,
             run_id=add_run(c, name="r", kind="simulated").id,
             image_id=1,
-            predictions=[NewPrediction(visible=square, score=0.5)],
+            predictions=[NewPrediction(visible=square, score=0.5) for _ in range(3)],
         )
     )
     marks = (Circle(20.5, 20.25, 9.75), Ellipse(20, 20, 10, 5, 179.5), Polygon(TRIANGLE[0]))
     for number, mark in enumerate(marks):
-        cap = Cap(visible=square, mark=mark, ignored=True, doubtful=True, order=-3, prediction=1)
+        cap = Cap(visible=square, mark=mark, ignored=True, doubtful=True, order=-3, prediction=number + 1)
         outcome = one(beds, f"e{number}", annotation=f"cap{number}", cap=cap)
         assert isinstance(outcome, Accepted)
         with beds.read() as connection:

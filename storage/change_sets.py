@@ -1,0 +1,51 @@
+"""Change sets: the edits and changes of status that one person made on one image in one go."""
+
+from __future__ import annotations
+
+from sqlalchemy import Connection, insert, select
+
+from fairyring.storage.cap_validity import check_name
+from fairyring.storage.db.schema import change_set
+from fairyring.storage.records import Edit, StatusEdit
+
+
+class ChangeSets:
+    """The numbers of the change sets that one person's edits belong to; entered when first asked for."""
+
+    def __init__(self, connection: Connection, *, user: str) -> None:
+        self._connection = connection
+        self._user = user
+        self._known: dict[tuple[int, str], int] = {}
+        self._unnamed: dict[int, str] = {}
+
+    def number_of(self, edit: Edit | StatusEdit, *, time: str) -> int:
+        """The number of an edit's change set. Edits that name none are together in one an image."""
+        name = edit.change_set or self._unnamed.setdefault(edit.image, edit.id)
+        return self.number(edit.image, name, takes_back=edit.takes_back, time=time)
+
+    def number(self, image: int, name: str, *, takes_back: str = "", time: str) -> int:
+        """The number of the change set of this name, made at ``time`` unless it is there already."""
+        key = (image, name)
+        if key not in self._known:
+            self._known[key] = self._find(*key) or self._enter(*key, takes_back=takes_back, time=time)
+        return self._known[key]
+
+    def _find(self, image: int, name: str) -> int | None:
+        """One of which a piece was stored before."""
+        table = change_set
+        asked = select(table.c.sequence).where(
+            table.c.image == image, table.c.user == self._user, table.c.id == name
+        )
+        return self._connection.execute(asked).scalar_one_or_none()
+
+    def _enter(self, image: int, name: str, *, takes_back: str, time: str) -> int:
+        values = {"id": name, "image": image, "user": self._user, "made_at": time}
+        entered = insert(change_set).values(**values, takes_back=takes_back or None)
+        return self._connection.execute(entered.returning(change_set.c.sequence)).scalar_one()
+
+
+def check_change_set(edit: Edit | StatusEdit) -> None:
+    """Raises StoreError where what an edit says of change sets cannot be their number."""
+    for name in (edit.change_set, edit.takes_back):
+        if name:
+            check_name(name, "number of a change set")

@@ -1,0 +1,144 @@
+"""What people say of images: changes of status are journalled as edits are, and follow edits of caps."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from uuid import uuid4
+
+from msgspec import json
+from sqlalchemy import Connection, insert, select, update
+
+from fairyring.model.errors import FairyringError
+from fairyring.storage.cap_validity import check_name
+from fairyring.storage.change_sets import ChangeSets, check_change_set
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.rows import image_of, require_image
+from fairyring.storage.db.schema import edit, image, status_change
+from fairyring.storage.errors import StoreError
+from fairyring.storage.ledger import stored_annotations
+from fairyring.storage.records import STATUSES, Cap, Image, Outcome, Refused, Status, StatusEdit, StatusStored
+
+
+def set_status(connection: Connection, image_id: int, status: Status, *, user: str) -> Image:
+    """Sets the status, whatever it was, and journals who did it and when; returns the image as it is now.
+
+    Raises:
+        StoreError: the project has no such image, or there is no such status.
+    """
+    check_name(user, "name of a user")
+    if status not in STATUSES:
+        raise StoreError(f"The status of an image is one of {', '.join(STATUSES)}.")
+    before = require_image(connection, image_id).status
+    if before != status:
+        made = StatusEdit(id=uuid4().hex, image=image_id, before=before, after=status)
+        _record(connection, made, ChangeSets(connection, user=user), user=user)
+    return image_of(require_image(connection, image_id))
+
+
+def commit_status(connection: Connection, made: StatusEdit, sets: ChangeSets, *, user: str) -> Outcome:
+    """Stores a change of status made on the status as it is; one sent before is accepted again."""
+    try:
+        check_name(made.id, "number of an edit")
+        check_change_set(made)
+        photo = require_image(connection, made.image)
+        if not _was_sent_before(connection, made):
+            if photo.status != made.before:
+                raise StoreError(_overtaken(connection, image_of(photo)))
+            _record(connection, made, sets, user=user)
+    except FairyringError as error:
+        return Refused(edit=made.id, reason=str(error))
+    return StatusStored(edit=made.id, image=made.image, status=require_image(connection, made.image).status)
+
+
+def follow_edits(connection: Connection, image_id: int, number: int, *, takes_back: bool, user: str) -> None:
+    """Has the status follow edits of caps that a change set has just brought.
+
+    What was approved is so no longer once any cap is another. It is again when taking back has made all caps
+    what they were when it was approved.
+
+    Args:
+        connection: within ``Project.write``.
+        image_id: whose caps were edited.
+        number: of the change set.
+        takes_back: whether it takes back another one.
+        user: who made it.
+    """
+    status = require_image(connection, image_id).status
+    if status == "approved":
+        _enter(connection, image_id, before=status, after="annotated", number=number, user=user)
+    elif takes_back and _is_as_approved(connection, image_id):
+        _enter(connection, image_id, before=status, after="approved", number=number, user=user)
+
+
+def _is_as_approved(connection: Connection, image_id: int) -> bool:
+    """Whether an edit reopened the image, nobody spoke of it since, and its caps are as before that edit."""
+    last = connection.execute(
+        select(status_change)
+        .where(status_change.c.image == image_id)
+        .order_by(status_change.c.sequence.desc())
+        .limit(1)
+    ).first()
+    if last is None or last.id is not None or last.before != "approved":
+        return False
+    reopened = select(edit.c.sequence).where(edit.c.change_set == last.change_set).order_by(edit.c.sequence)
+    first = connection.execute(reopened.limit(1)).scalar_one()
+    since = (
+        select(edit.c.annotation, edit.c.before)
+        .where(edit.c.sequence >= first, edit.c.image == image_id)
+        .order_by(edit.c.sequence)
+    )
+    approved: dict[str, Cap | None] = {}
+    for row in connection.execute(since):
+        approved.setdefault(row.annotation, row.before)
+    now = stored_annotations(connection, approved)
+    return approved == {uid: None if each.deleted else each.cap for uid, each in now.items()}
+
+
+def _was_sent_before(connection: Connection, made: StatusEdit) -> bool:
+    known = connection.execute(
+        select(status_change.c.digest).where(status_change.c.id == made.id)
+    ).scalar_one_or_none()
+    if known is not None and known != _digest_of(made):
+        raise StoreError("Another edit has this number; reload the page.")
+    return known is not None
+
+
+def _overtaken(connection: Connection, photo: Image) -> str:
+    last = connection.execute(
+        select(status_change.c.user)
+        .where(status_change.c.image == photo.id)
+        .order_by(status_change.c.sequence.desc())
+        .limit(1)
+    ).scalar_one_or_none()
+    words = "to do" if photo.status == "new" else photo.status
+    return f"{last or 'Somebody'} has set {photo.file_name} to “{words}” meanwhile; it stays so."
+
+
+def _record(connection: Connection, made: StatusEdit, sets: ChangeSets, *, user: str) -> None:
+    time = now()
+    connection.execute(update(image).where(image.c.id == made.image).values(status=made.after))
+    connection.execute(
+        insert(status_change).values(
+            id=made.id,
+            digest=_digest_of(made),
+            image=made.image,
+            before=made.before,
+            after=made.after,
+            user=user,
+            made_at=time,
+            change_set=sets.number_of(made, time=time),
+        )
+    )
+
+
+def _enter(
+    connection: Connection, image_id: int, *, before: Status, after: Status, number: int, user: str
+) -> None:
+    """Journals a change of status that an edit of a cap has brought about: it has no number of its own."""
+    connection.execute(update(image).where(image.c.id == image_id).values(status=after))
+    values = {"image": image_id, "before": before, "after": after, "user": user, "made_at": now()}
+    connection.execute(insert(status_change).values(**values, change_set=number))
+
+
+def _digest_of(made: StatusEdit) -> str:
+    return sha256(json.encode(made)).hexdigest()
