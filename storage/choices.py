@@ -21,6 +21,13 @@ class ImportAs(StrEnum):
     predictions = "predictions"
 
 
+class Said(StrEnum):
+    """What people say of an image all of whose caps are labelled."""
+
+    annotated = "annotated"
+    approved = "approved"
+
+
 class ExportFormat(StrEnum):
     """The formats an export can be written in."""
 

@@ -29,7 +29,7 @@ from fairyring.storage.formats.coco_writing import (
 from fairyring.storage.originals import PhotoChangedError
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.records import Annotation, Image, Prediction, is_complete
 from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
@@ -42,6 +42,8 @@ class ExportReport(Struct, frozen=True, kw_only=True):
     images: int
     annotations: int
     """How many annotations, or predictions where those were asked for."""
+    partial: int
+    """Of how many of the images nobody has said that these are all their caps."""
     left_out: list[str]
     """Sentences about images whose file is not the photo that was imported."""
 
@@ -82,7 +84,7 @@ def export_coco(
                 for number, (name, extra) in enumerate(categories.items(), start=1)
             ],
             "images": [
-                image_entry(image, number=number, licenses=licenses)
+                image_entry(image, number=number, partial=_is_partial(image, only), licenses=licenses)
                 for number, image in enumerate(images, start=1)
             ],
         }
@@ -90,7 +92,8 @@ def export_coco(
         numbers = {name: number for number, name in enumerate(categories, start=1)}
         with (folder / "instances.json").open("wb") as file:
             count = write_document(file, head, _entries(caps, numbers))
-    return ExportReport(images=len(images), annotations=count, left_out=left_out)
+    partial = sum(_is_partial(image, only) for image in images)
+    return ExportReport(images=len(images), annotations=count, partial=partial, left_out=left_out)
 
 
 _CATEGORIES = select(schema.category.c.name, schema.category.c.extra).order_by(schema.category.c.id)
@@ -106,6 +109,11 @@ def _images(connection: Connection, only: Only) -> list[Image]:
     }[only]
     statement = select(image).where(wanted).order_by(image.c.sort_name, image.c.id)
     return [image_of(row) for row in connection.execute(statement)]
+
+
+def _is_partial(image: Image, only: Only) -> bool:
+    """Whether nobody has said that what is written of an image are all its caps."""
+    return only == "predicted" or not is_complete(image.status)
 
 
 def _caps(

@@ -22,6 +22,11 @@ Status = Literal["new", "annotated", "approved"]
 STATUSES: tuple[Status, ...] = get_args(Status)
 
 
+def is_complete(status: Status) -> bool:
+    """Whether people say that all caps of an image with this status are labelled."""
+    return status != "new"
+
+
 class Image(Struct, frozen=True, kw_only=True):
     """One photo of a project, upright."""
 

@@ -86,7 +86,15 @@ def train(
                 resume=resume,
                 lenient=lenient,
             )
-            result = train_as_asked(sources, out, asked, device=device, workers=workers, progress=progress)
+            result = train_as_asked(
+                sources,
+                out,
+                asked,
+                device=device,
+                workers=workers,
+                progress=progress,
+                say=lambda sentence: typer.echo(sentence, err=True) if leads else None,
+            )
     except KeyboardInterrupt:
         if leads:
             typer.echo(_after_interruption(out), err=True)
@@ -96,7 +104,8 @@ def train(
             raise
         raise typer.Exit(1) from None
     if leads and as_json:
-        typer.echo(json.dumps({"weights": str(result.weights), "validation": result.figures}))
+        figures = {"weights": str(result.weights), "validation": result.figures}
+        typer.echo(json.dumps(figures | {"photos": result.photos.figures()}))
     elif leads:
         typer.echo(f"Wrote {result.weights}.{_validated(result.figures)}", err=True)
 

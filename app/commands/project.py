@@ -11,7 +11,7 @@ import typer
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.light_and_form import FORMS, LightSource
-from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only
+from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only, Said
 from fairyring.storage.folder import IMAGES, WEIGHTS
 
 if TYPE_CHECKING:
@@ -48,6 +48,10 @@ def import_(
     link: Annotated[bool, typer.Option(help="Leave the images where they are; do not copy.")] = False,
     light: Annotated[LightSource | None, typer.Option(help="Light source of these images.")] = None,
     form: Annotated[str | None, typer.Option(help="The paper's form of these images, a to h.")] = None,
+    status: Annotated[
+        Said | None,
+        typer.Option(help="Say of labelled images that all their caps are; else their file says, or nobody."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Take in images and labels; report everything that is wrong, with file and reason.
@@ -55,6 +59,7 @@ def import_(
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
     from fairyring.app.caps.filling_in import fill_in
+    from fairyring.storage.importing.intake import Facts
     from fairyring.storage.importing.paths import import_paths
     from fairyring.storage.project import open_project
 
@@ -68,8 +73,7 @@ def import_(
             as_=as_,
             strict=strict,
             link=link,
-            light=light,
-            form=form,
+            unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
             progress=progress,
         )
         fill_in(project, progress=progress)
@@ -119,9 +123,20 @@ def export(
         report = export_coco(project, out, only=only, with_ignored=with_ignored, progress=progress)
     for sentence in report.left_out:
         typer.echo(sentence, err=True)
+    if report.partial and only is not Only.predicted:
+        typer.echo(
+            f'Of {report.partial} images nobody has said that all their caps are labelled: "partial": true '
+            "marks them, which other programs do not know. --only approved leaves them out.",
+            err=True,
+        )
     left_out = len(report.left_out)
     if as_json:
-        figures = {"images": report.images, "annotations": report.annotations, "left_out": left_out}
+        figures = {
+            "images": report.images,
+            "annotations": report.annotations,
+            "partial": report.partial,
+            "left_out": left_out,
+        }
         typer.echo(json.dumps(figures))
     else:
         others = f"; {left_out} images left out" if left_out else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,8 @@ import msgspec
 import torch
 from msgspec import structs
 
-from fairyring.app.jobs.training_labels import Labels, divided, labels_at
+from fairyring.app.jobs.division import Division, divided
+from fairyring.app.jobs.training_labels import Labels, labels_at
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.network.backbone import load_backbone
@@ -24,7 +25,7 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.shipped import RECIPE, SHIPPED
 from fairyring.model.progress import Progress
 from fairyring.model.train.checkpoint import CheckpointError
-from fairyring.model.train.loop import CARD, TrainResult, train
+from fairyring.model.train.loop import CARD, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.storage.folder import is_project
 
@@ -68,13 +69,31 @@ class Start:
     """Entries for ``run.json`` and the card of the weights."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class Trained:
+    """What a finished training leaves."""
+
+    weights: Path
+    figures: dict[str, Any]
+    """Figures of the best validation; empty where there was none."""
+    photos: Division
+
+
 def train_as_asked(
-    sources: Sequence[Path], out: Path, asked: Asked, *, device: str, workers: int | None, progress: Progress
-) -> TrainResult:
+    sources: Sequence[Path],
+    out: Path,
+    asked: Asked,
+    *,
+    device: str,
+    workers: int | None,
+    progress: Progress,
+    say: Callable[[str], None],
+) -> Trained:
     """Trains on the labels of a project or of COCO files; everything is kept in the folder ``out``.
 
     A project's labels go on from the shipped weights, a COCO file's from ImageNet, unless weights are asked
     for. Where no recipe is, weights of ours are trained ``further``, a new network by the paper's.
+    ``say`` is told, before it begins, of how many photos and caps is learnt.
     Raises FairyringError, and whatever ``progress`` raises; then it can be resumed.
     """
     on = device_of(device)
@@ -92,10 +111,11 @@ def train_as_asked(
             weights = shipped_for(asked.recipe(Recipe()))
         goes_on = weights is not None and Path(weights).suffix == ".safetensors"
         start = start_of(asked.recipe(further() if goes_on else Recipe()), weights, record)
-    learnt, checks = divided(labels, validation, seed=start.recipe.seed)
-    return train(
-        learnt,
-        checks,
+    photos = divided(labels, validation, seed=start.recipe.seed)
+    say(str(photos))
+    result = train(
+        photos.learnt,
+        photos.checked,
         out,
         recipe=start.recipe,
         device=on,
@@ -106,6 +126,7 @@ def train_as_asked(
         labels=record,
         report=lambda now: progress(now.iteration, now.iterations, f"{now.what}, loss {now.loss:.3f}"),
     )
+    return Trained(weights=result.weights, figures=result.figures, photos=photos)
 
 
 def recipe_of(

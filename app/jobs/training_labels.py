@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -13,23 +14,21 @@ from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
 from fairyring.model.progress import Progress, silent
 from fairyring.model.train.data import Example
-from fairyring.model.train.split import split_by_source
 from fairyring.storage.choices import ImportFormat
 from fairyring.storage.contents import load_annotations
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import is_project
 from fairyring.storage.images import ImageFilter, get_image, list_ids
 from fairyring.storage.importing.intake import Intake, take_in
+from fairyring.storage.importing.photos import Photo
 from fairyring.storage.importing.sources import Sources, gather
 from fairyring.storage.project import Project, open_project
-from fairyring.storage.records import Annotation, Cap, Image
+from fairyring.storage.records import Annotation, Cap, Image, Status, is_complete
 
 Item = TypeVar("Item")
 
-FEWEST_TO_DIVIDE = 4
-"""Least number of images of which some are kept for validation."""
-VALIDATION, TEST = ("val", "valid", "validation"), ("test",)
-"""Values of an image's ``split`` that mean validation and test; all other images are for training."""
+NO_LABELS, NO_OUTLINES = "without labels", "without a cap that can be learnt"
+NOT_APPROVED = "not approved, as others are"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +40,21 @@ class Labels:
     """The ``split`` of each example's image."""
     record: dict[str, Any]
     """The images, and the revision of every cap, for ``labels.json``."""
+    left_out: Counter[str]
+    """Numbers of photos that teach nothing, by the reason."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Labelled:
+    """A photo and what is labelled in it."""
+
+    path: Path
+    photo: Image | Photo
+    caps: list[Cap]
+    status: Status | None
+    """None where a file of others does not say; then all caps of a photo with labels are labelled."""
+    entry: dict[str, Any]
+    """What ``labels.json`` says of it."""
 
 
 def labels_at(
@@ -66,24 +80,29 @@ def labels_at(
 def labels_of_project(project: Project, *, progress: Progress = silent) -> Labels:
     """The labels of a project: of its approved images, else of all with annotations.
 
-    Ignored and doubtful caps, and those without a visible outline, are where nothing is learnt.
+    An image that nobody called annotated or approved is labelled in part. Ignored and doubtful caps, and
+    those without a visible outline, are where nothing is learnt.
     Raises FairyringError for a photo that is gone or changed, and where nothing is annotated.
     """
     with project.read() as connection:
-        rule, ids = _labelled(connection)
-        labelled = [(get_image(connection, i), load_annotations(connection, i)) for i in ids]
-    if not labelled:
+        rule, ids, left_out = _labelled(connection)
+        found = [(get_image(connection, i), load_annotations(connection, i)) for i in ids]
+    if not found:
         raise FairyringError(f"Nothing is annotated in {project.folder} yet; annotate some images first.")
-    examples = []
-    for done, (image, caps) in enumerate(labelled):
-        progress(done, len(labelled), "Looking at photos")
-        examples.append(_example(project.originals.path_of(image), image, [a.cap for a in caps]))
-    entries = [_entry_of(image, caps) for image, caps in labelled]
-    return Labels(
-        examples=examples,
-        splits=[image.split for image, _ in labelled],
-        record={"project": project.name, "id": project.id, "images_are": rule, "images": entries},
-    )
+    labelled = []
+    for done, (image, caps) in enumerate(found):
+        progress(done, len(found), "Looking at photos")
+        labelled.append(
+            _Labelled(
+                path=project.originals.path_of(image),
+                photo=image,
+                caps=[annotation.cap for annotation in caps],
+                status=image.status,
+                entry=_entry_of(image, caps),
+            )
+        )
+    record = {"project": project.name, "id": project.id, "images_are": rule}
+    return _labels(labelled, record=record, left_out=left_out)
 
 
 def labels_of_coco(
@@ -105,12 +124,13 @@ def labels_of_coco(
         examples=joined([labels.examples for labels in files]),
         splits=joined([labels.splits for labels in files]),
         record={"files": [labels.record for labels in files]},
+        left_out=sum((labels.left_out for labels in files), Counter()),
     )
 
 
 def _of_file(path: Path, *, lenient: bool, progress: Progress) -> Labels:
     sources = gather([path], kind=ImportFormat.coco)
-    intake = take_in(sources, known={}, light=None, form=None, progress=progress)
+    intake = take_in(sources, known={}, progress=progress)
     if intake.problems and not (lenient and intake.seen):
         others = len(intake.problems) - 1
         more = f" ({others} more; --lenient leaves such items out)" if others else " (or give --lenient)"
@@ -128,34 +148,18 @@ def _in_turn(lists: Sequence[list[Item]]) -> list[Item]:
     return [items[place] for place in range(longest) for items in lists if place < len(items)]
 
 
-def divided(labels: Labels, validation: Labels | None, *, seed: int) -> tuple[list[Example], list[Example]]:
-    """The examples for training and those for validation; test images are in neither.
-
-    Validated is ``validation`` where given, else what ``split`` names so, else a seeded three tenths of four
-    images and more.
-    """
-    pairs = list(zip(labels.examples, labels.splits, strict=True))
-    learnt = [example for example, split in pairs if split not in VALIDATION + TEST]
-    if validation is not None:
-        return learnt, validation.examples
-    checked = [example for example, split in pairs if split in VALIDATION]
-    if checked or len(learnt) < FEWEST_TO_DIVIDE:
-        return learnt, checked
-    # By the whole path: photos of two data sets may have one name.
-    sides = split_by_source([example.path.as_posix() for example in learnt], seed=seed)
-    return (
-        [example for example, side in zip(learnt, sides, strict=True) if side == "train"],
-        [example for example, side in zip(learnt, sides, strict=True) if side == "val"],
-    )
-
-
-def _labelled(connection: Connection) -> tuple[str, list[int]]:
+def _labelled(connection: Connection) -> tuple[str, list[int], Counter[str]]:
+    """The rule by which images of a project teach, those that do, and how many do not, by the reason."""
+    everything = list_ids(connection, ImageFilter())
+    said = {*list_ids(connection, ImageFilter(status="annotated"))}
+    with_caps = {*said, *list_ids(connection, ImageFilter(annotated=True))}
     approved = list_ids(connection, ImageFilter(status="approved"))
     if approved:
-        return "approved", approved
-    said = list_ids(connection, ImageFilter(status="annotated"))
-    annotated = {*said, *list_ids(connection, ImageFilter(annotated=True))}
-    return "annotated", [i for i in list_ids(connection, ImageFilter()) if i in annotated]
+        left_out = Counter({NOT_APPROVED: len(with_caps.difference(approved))})
+        left_out[NO_LABELS] = len(everything) - len(with_caps.union(approved))
+        return "approved", approved, left_out
+    ids = [number for number in everything if number in with_caps]
+    return "annotated", ids, Counter({NO_LABELS: len(everything) - len(ids)})
 
 
 def _entry_of(image: Image, annotations: Sequence[Annotation]) -> dict[str, Any]:
@@ -164,32 +168,58 @@ def _entry_of(image: Image, annotations: Sequence[Annotation]) -> dict[str, Any]
 
 
 def _of_intake(sources: Sources, intake: Intake) -> Labels:
-    photos = [intake.photos[name] for name in sorted(intake.seen)]
-    examples = []
-    for photo in photos:
+    labelled = []
+    for name in sorted(intake.seen):
+        photo = intake.photos[name]
         assert photo.source is not None, "no project was asked"
-        caps = [found.cap for found in intake.caps.get(photo.file_name, [])]
-        examples.append(_example(photo.source, photo, caps))
-    entries = [{"file_name": photo.file_name, "sha256": photo.sha256} for photo in photos]
+        labelled.append(
+            _Labelled(
+                path=photo.source,
+                photo=photo,
+                caps=[found.cap for found in intake.caps.get(name, [])],
+                status=photo.status,
+                entry={"file_name": photo.file_name, "sha256": photo.sha256},
+            )
+        )
     (document,) = sources.documents
-    return Labels(
-        examples=examples,
-        splits=[photo.split for photo in photos],
-        record={"file": document.path.name, "sha256": document.sha256, "images": entries},
-    )
+    record = {"file": document.path.name, "sha256": document.sha256}
+    return _labels(labelled, record=record, left_out=Counter())
 
 
-def _example(path: Path, image: Any, caps: Sequence[Cap]) -> Example:
-    learnt = [cap.visible for cap in caps if _is_learnt(cap)]
-    left = [_covered(cap) for cap in caps if not _is_learnt(cap)]
+def _labels(labelled: Iterable[_Labelled], *, record: dict[str, Any], left_out: Counter[str]) -> Labels:
+    """The examples of the photos that teach something; the others are counted."""
+    examples: list[Example] = []
+    splits: list[str | None] = []
+    entries: list[dict[str, Any]] = []
+    for item in labelled:
+        example = _example(item)
+        reason = _why_left_out(example, item)
+        if reason is not None:
+            left_out[reason] += 1
+            continue
+        examples.append(example)
+        splits.append(item.photo.split)
+        entries.append(item.entry | ({} if example.complete else {"complete": False}))
+    return Labels(examples=examples, splits=splits, record=record | {"images": entries}, left_out=+left_out)
+
+
+def _why_left_out(example: Example, item: _Labelled) -> str | None:
+    said_to_be_empty = item.status is not None and not item.caps
+    if example.caps or (example.complete and (example.ignored or said_to_be_empty)):
+        return None
+    return NO_OUTLINES if item.caps else NO_LABELS
+
+
+def _example(item: _Labelled) -> Example:
     return Example(
-        path=path,
-        width=image.width,
-        height=image.height,
-        caps=learnt,
-        ignored=left,
-        light=image.light,
-        form=image.form,
+        path=item.path,
+        width=item.photo.width,
+        height=item.photo.height,
+        caps=[cap.visible for cap in item.caps if _is_learnt(cap)],
+        ignored=[_covered(cap) for cap in item.caps if not _is_learnt(cap)],
+        complete=item.status is None or is_complete(item.status),
+        light=item.photo.light,
+        form=item.photo.form,
     )
 
 

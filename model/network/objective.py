@@ -32,6 +32,8 @@ class Caps:
     """(n, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
     cells: list[Tensor]
     """For each level (rows, columns) int64, which cap each cell learns: see ``model.network.targets``."""
+    ignored: Tensor
+    """(H, W) bool at photo pixels: where it is not said whether there is a cap."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +56,7 @@ class Batch:
                     masks=caps.masks.to(device),
                     targets=caps.targets.to(device),
                     cells=[cells.to(device) for cells in caps.cells],
+                    ignored=caps.ignored.to(device),
                 )
                 for caps in self.caps
             ],
@@ -171,7 +174,7 @@ def _instance_points(
 
 
 def _semantic_points(outputs: Outputs, batch: Batch) -> Tensor:
-    """Points of reading B: whether each is on any cap."""
+    """Points of reading B: whether each is on any cap; those where it is not said are left out."""
     assert outputs.sharp is not None
     any_cap = torch.stack(
         [
@@ -181,5 +184,8 @@ def _semantic_points(outputs: Outputs, batch: Batch) -> Tensor:
     )
     count = outputs.sharp.points.shape[1]
     owners = torch.arange(len(any_cap), device=any_cap.device).repeat_interleave(count)
-    true = sample_maps(any_cap[:, None], owners, outputs.sharp.points.reshape(-1, 2), stride=1)[:, 0]
-    return point_loss(outputs.sharp.logits.flatten(), true)
+    points = outputs.sharp.points.reshape(-1, 2)
+    true = sample_maps(any_cap[:, None], owners, points, stride=1)[:, 0]
+    x, y = points.long().unbind(1)
+    unsaid = torch.stack([caps.ignored for caps in batch.caps])[owners, y, x] & (true == 0)
+    return point_loss(outputs.sharp.logits.flatten()[~unsaid], true[~unsaid])

@@ -62,20 +62,32 @@ def cut_crop(
     caps: list[Outline],
     ignored: list[Outline],
     *,
+    complete: bool = True,
     augmentation: Augmentation,
     config: CropConfig,
     rng: np.random.Generator,
 ) -> Crop:
-    """A crop at a random place; outside of the photo it is black."""
+    """A crop at a random place; outside of the photo it is black.
+
+    Where the caps are not all there are (``complete``), one of them is in the crop, and everything outside
+    them is ignored.
+    """
     height, width = photo.shape[:2]
     scale = float(np.exp(rng.uniform(*np.log(config.scale))))
-    corner = np.array([_first(extent * scale, config.side, rng) for extent in (width, height)])
     motion = motion_of(augmentation, width=width, height=height) * scale
+    extents = (width * scale, height * scale)
+    if complete or not caps:
+        corner = [_first(extent, config.side, rng) for extent in extents]
+    else:
+        middle = _middle(move_outline(caps[rng.integers(len(caps))], motion))
+        corner = [_first_near(*axis, config.side, rng) for axis in zip(middle, extents, strict=True)]
     motion[:, 2] -= corner
     masks = [
         mask for outline in caps if (mask := _mask_in(move_outline(outline, motion), config.side)) is not None
     ]
-    unlearnt = np.zeros((config.side, config.side), bool)
+    unlearnt = np.full((config.side, config.side), not complete)
+    for mask in masks:
+        unlearnt &= mask == 0
     for outline in ignored:
         mask = _mask_in(move_outline(outline, motion), config.side)
         if mask is not None:
@@ -97,6 +109,19 @@ def _first(extent: float, side: int, rng: np.random.Generator) -> float:
     room = extent - side
     # Whole pixels, so that a crop that is neither turned nor scaled is as sharp as its photo.
     return float(np.floor(min(rng.uniform(0, room + 1), room) if room > 0 else room / 2))
+
+
+def _first_near(middle: float, extent: float, side: int, rng: np.random.Generator) -> float:
+    """As ``_first``, such that a point of the photo is in the crop."""
+    room = extent - side
+    if room <= 0:
+        return _first(extent, side, rng)
+    return float(np.floor(np.clip(rng.uniform(middle - side, middle), 0, room)))
+
+
+def _middle(outline: Outline) -> tuple[float, float]:
+    x, y, width, height = bounds_of_outline(outline)
+    return x + width / 2, y + height / 2
 
 
 def _mask_in(outline: Outline, side: int) -> Mask | None:

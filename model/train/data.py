@@ -41,6 +41,8 @@ class Example:
     """Visible outlines of the caps to learn."""
     ignored: list[Outline] = field(default_factory=list)
     """Outlines of regions where nothing is learnt."""
+    complete: bool = True
+    """Whether these are all caps of the photo; else nothing is learnt outside them."""
     light: str | None = None
     form: str | None = None
     source: str = ""
@@ -64,7 +66,7 @@ class Batches(Dataset[Batch]):
     def __init__(self, examples: Sequence[Example], settings: SampleConfig, *, count: int) -> None:
         if not any(example.caps for example in examples):
             raise DataError("No cap is labelled in these images; label some, or give another file.")
-        self.examples = [example for example in examples if example.caps or example.ignored]
+        self.examples = list(examples)
         self.settings, self.count = settings, count
 
     def __len__(self) -> int:
@@ -81,6 +83,7 @@ class Batches(Dataset[Batch]):
                     read_rgb(example.path),
                     example.caps,
                     example.ignored,
+                    complete=example.complete,
                     augmentation=sample_augmentation(
                         rng,
                         most_rotation_deg=settings.crop.most_rotation_deg,
@@ -117,6 +120,7 @@ def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
         masks=masks,
         targets=targets if soft else _binary(targets),
         cells=[torch.from_numpy(level) for level in cells],
+        ignored=torch.from_numpy(crop.ignored),
     )
 
 

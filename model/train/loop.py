@@ -114,7 +114,7 @@ def train(
     card, ``labels`` into ``labels.json``. The same examples, recipe and seed give the same weights on one
     machine, however often it was resumed.
 
-    Raises TrainError, DataError, CheckpointError, WeightsError.
+    Raises TrainError, DivergenceError, DataError, CheckpointError, WeightsError.
     """
     with together(device) as process, _without_denormals():
         torch.manual_seed(recipe.seed)
@@ -206,6 +206,7 @@ def _iterate(state: TrainingState, step: nn.Module, batches: list[Batch], plan: 
             f"The loss is no number any more at iteration {state.iteration}; "
             "lower the rate, or lengthen the warm-up, and resume."
         )
+    state.losses.add(category + DICE_WEIGHT * mask + points, iteration=state.iteration)
     state.stepping = True
     state.optimiser.step()
     if state.average is not None:

@@ -12,6 +12,7 @@ from torch.optim.swa_utils import AveragedModel
 from fairyring.model.network.backbone import load_backbone
 from fairyring.model.network.lite0 import imagenet_weights
 from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.train.divergence import Losses
 from fairyring.model.train.optimiser import average_of, freeze_stages, optimiser_of
 from fairyring.model.train.recipe import Recipe
 
@@ -27,6 +28,7 @@ class TrainingState:
     best: dict[str, Any] = field(default_factory=dict)
     checked: int = 0
     """The iteration that was validated last."""
+    losses: Losses = field(default_factory=Losses)
     stepping: bool = False
     """Whether the weights are half way between two iterations."""
 
@@ -44,6 +46,7 @@ class TrainingState:
             "iteration": self.iteration,
             "best": msgspec.json.encode(self.best).decode(),
             "checked": self.checked,
+            "losses": {"first": self.losses.first, "last": self.losses.last},
         }
 
     def restore(self, saved: dict[str, Any]) -> None:
@@ -55,6 +58,7 @@ class TrainingState:
         self.iteration = saved["iteration"]
         self.best = msgspec.json.decode(saved["best"])
         self.checked = saved.get("checked", self.iteration)
+        self.losses = Losses(**saved.get("losses", {}))
 
 
 def new_network(recipe: Recipe) -> PRSOLOv2:

@@ -30,14 +30,16 @@ from fairyring.model.coco.faults import Fault, Reported
 from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.coco.images import ImageEntry, by_base_name, read_images
 from fairyring.model.geometry.shapes import Mark, Polygon
-from fairyring.model.json_values import ValueRefusedError, kept, shown, text
+from fairyring.model.json_values import ValueRefusedError, flag, kept, shown, text
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.cap_validity import MAX_ORDER
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
-from fairyring.storage.records import Cap
+from fairyring.storage.records import STATUSES, Cap, Status
 
-IMAGE_KEYS = {"id", "file_name", "width", "height", "light", "form", "split", "license"}
+IMAGE_KEYS = {
+    *("id", "file_name", "width", "height", "light", "form", "split", "license", "status", "partial"),
+}
 CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {
     *("id", "image_id", "category_id", "segmentation", "bbox", "area", "iscrowd", "score", "uid"),
@@ -99,8 +101,17 @@ def _image(name: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults:
         light=keys.get("light") if keys.get("light") in LIGHTS else None,
         form=keys.get("form") if keys.get("form") in FORMS else None,
         split=text(keys.get("split")),
+        status=_status(keys),
         extra=_kept(extra, entry.where, faults),
     )
+
+
+def _status(keys: dict[str, Any]) -> Status | None:
+    """What the file says of how far the image is; whatever it says, one labelled in part is to do."""
+    if flag(keys.get("partial"), "partial"):
+        return "new"
+    # Other programs have words of their own.
+    return keys.get("status") if keys.get("status") in STATUSES else None
 
 
 def _caps(

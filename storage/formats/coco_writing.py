@@ -60,10 +60,16 @@ def prediction_entry(
     return {"id": number} | prediction.extra | entry
 
 
-def image_entry(image: Image, *, number: int, licenses: list[dict[str, Any]]) -> dict[str, Any]:
-    """The entry of an image; its licence is added to ``licenses`` and named by number."""
+def image_entry(
+    image: Image, *, number: int, partial: bool, licenses: list[dict[str, Any]]
+) -> dict[str, Any]:
+    """The entry of an image; its licence is added to ``licenses`` and named by number.
+
+    ``partial``: nobody has said that the annotations are all its caps.
+    """
     entry: dict[str, Any] = {"id": number, "file_name": image.file_name}
     entry |= {"width": image.width, "height": image.height, "status": image.status}
+    entry |= {"partial": True} if partial else {}
     known = {"light": image.light, "form": image.form, "split": image.split}
     extra = dict(image.extra)
     license_ = extra.pop("license", None)

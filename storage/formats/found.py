@@ -6,7 +6,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from fairyring.storage.records import Cap, Shape
+from fairyring.storage.records import Cap, Shape, Status
 
 
 class Problem(Struct, frozen=True):
@@ -48,6 +48,8 @@ class FoundImage(Struct, frozen=True, kw_only=True):
     light: str | None = None
     form: str | None = None
     split: str | None = None
+    status: Status | None = None
+    """None where the file does not say."""
     extra: dict[str, Any] = field(default_factory=dict)
     caps: list[FoundCap] = field(default_factory=list)
 

@@ -16,6 +16,19 @@ from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.photo_names import PhotoNames, meant
 from fairyring.storage.importing.photos import Beside, Photo, examine
 from fairyring.storage.importing.sources import Document, Sources
+from fairyring.storage.records import Status
+
+
+class Facts(Struct, frozen=True, kw_only=True):
+    """What a person says of photos whose file says nothing of it."""
+
+    light: str | None = None
+    form: str | None = None
+    status: Status | None = None
+    """Of photos with labels."""
+
+
+NOTHING_SAID = Facts()
 
 
 class Intake(Struct, kw_only=True):
@@ -50,21 +63,19 @@ class Intake(Struct, kw_only=True):
 
 
 def take_in(
-    sources: Sources, *, known: dict[str, Photo], light: str | None, form: str | None, progress: Progress
+    sources: Sources, *, known: dict[str, Photo], unsaid: Facts = NOTHING_SAID, progress: Progress
 ) -> Intake:
     """Checks every photo, and every cap against its photo.
 
     Args:
         sources: what was gathered.
         known: the photos of the project.
-        light: of new photos whose file does not say.
-        form: of new photos whose file does not say.
+        unsaid: what holds of photos where their file does not say otherwise.
         progress: called once a photo.
     """
     intake = Intake(photos=dict(known), problems=list(sources.problems))
     tasks: list[tuple[str, str, Callable[[], None]]] = [
-        (str(path), "", lambda path=path: _take_photo(intake, path, light=light, form=form))
-        for path in sources.photos
+        (str(path), "", lambda path=path: _take_photo(intake, path, unsaid)) for path in sources.photos
     ]
     for document in sources.documents:
         intake.problems.extend(document.found.problems)
@@ -72,9 +83,7 @@ def take_in(
             (
                 str(document.path),
                 image.where,
-                lambda document=document, image=image: _take_labels(
-                    intake, document, image, light=light, form=form
-                ),
+                lambda document=document, image=image: _take_labels(intake, document, image, unsaid),
             )
             for image in document.found.images
         ]
@@ -87,8 +96,8 @@ def take_in(
     return intake
 
 
-def _take_photo(intake: Intake, path: Path, *, light: str | None, form: str | None) -> None:
-    _add(intake, structs.replace(examine(path), light=light, form=form))
+def _take_photo(intake: Intake, path: Path, unsaid: Facts) -> None:
+    _add(intake, structs.replace(examine(path), light=unsaid.light, form=unsaid.form))
 
 
 def _add(intake: Intake, photo: Photo) -> Photo:
@@ -100,25 +109,26 @@ def _add(intake: Intake, photo: Photo) -> Photo:
     return intake.photos.setdefault(photo.file_name, photo)
 
 
-def _take_labels(
-    intake: Intake, document: Document, image: FoundImage, *, light: str | None, form: str | None
-) -> None:
+def _take_labels(intake: Intake, document: Document, image: FoundImage, unsaid: Facts) -> None:
     photo = _photo_of(intake, document.path, image)
-    intake.photos[photo.file_name] = _told_more(photo, image, light=light, form=form)
+    intake.photos[photo.file_name] = _told_more(photo, image, unsaid)
     intake.seen.add(photo.file_name)
     caps, problems = check_caps(image.caps, photo=photo, file=str(document.path))
     intake.caps.setdefault(photo.file_name, []).extend(caps)
     intake.problems.extend(problems)
 
 
-def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str | None) -> Photo:
+def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
     """The photo with what a file says of it; an import changes nothing that the project knows already."""
+    said = image.status or unsaid.status
+    status = said if photo.status in (None, "new") else photo.status
     if photo.id is None:
         return structs.replace(
             photo,
-            light=image.light or photo.light or light,
-            form=image.form or photo.form or form,
+            light=image.light or photo.light or unsaid.light,
+            form=image.form or photo.form or unsaid.form,
             split=image.split or photo.split,
+            status=status,
             extra=photo.extra | image.extra,
         )
     return structs.replace(
@@ -126,6 +136,7 @@ def _told_more(photo: Photo, image: FoundImage, *, light: str | None, form: str 
         light=photo.light or image.light,
         form=photo.form or image.form,
         split=photo.split or image.split,
+        status=status or photo.status,
         extra=image.extra | photo.extra,
     )
 

@@ -17,6 +17,7 @@ from fairyring.storage.choices import ImportAs, ImportFormat
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import IMAGES
 from fairyring.storage.formats.found import Problem
+from fairyring.storage.images import set_status
 from fairyring.storage.importing.entering import (
     Entered,
     Labelled,
@@ -26,7 +27,7 @@ from fairyring.storage.importing.entering import (
     refused_as_prediction,
     tell_more,
 )
-from fairyring.storage.importing.intake import Intake, take_in
+from fairyring.storage.importing.intake import NOTHING_SAID, Facts, Intake, take_in
 from fairyring.storage.importing.photos import Photo, photos_of_project
 from fairyring.storage.importing.sources import Sources, gather
 from fairyring.storage.importing.staging import Staging, staging
@@ -60,8 +61,7 @@ def import_paths(
     as_: ImportAs = ImportAs.annotations,
     strict: bool = False,
     link: bool = False,
-    light: str | None = None,
-    form: str | None = None,
+    unsaid: Facts = NOTHING_SAID,
     progress: Progress = silent,
     user: str = "import",
 ) -> ImportReport:
@@ -74,8 +74,7 @@ def import_paths(
         as_: what the shapes become.
         strict: take nothing if there is any problem.
         link: leave photos where they are instead of copying them.
-        light: of the new photos, where their file does not say: top, side or dark.
-        form: of the new photos, where their file does not say: a to h.
+        unsaid: what holds of photos where their file does not say otherwise; light and form of new ones.
         progress: called now and then; what it raises ends the import, with nothing changed.
         user: whom the journal names.
 
@@ -89,7 +88,7 @@ def import_paths(
         sources = gather([Path(path) for path in paths], kind=kind)
         with project.read() as connection:
             known = photos_of_project(connection)
-        intake = take_in(sources, known=known, light=light, form=form, progress=progress)
+        intake = take_in(sources, known=known, unsaid=unsaid, progress=progress)
         if as_ == ImportAs.predictions:
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
@@ -155,6 +154,7 @@ def _store(
     annotations, predictions, run = Entered(), Entered(), None
     if as_ == ImportAs.annotations:
         annotations = enter_annotations(connection, labelled, categories=categories, user=user)
+        _set_statuses(connection, intake, photos, user=user)
     elif labelled:
         run = _run_of(connection, sources)
         predictions = enter_predictions(connection, labelled, categories=categories, run_id=run.id)
@@ -168,6 +168,13 @@ def _store(
         run=run and run.id,
         problems=intake.problems,
     )
+
+
+def _set_statuses(connection: Connection, intake: Intake, photos: dict[str, Photo], *, user: str) -> None:
+    for name in sorted(intake.seen):
+        number, status = photos[name].id, intake.photos[name].status
+        if status is not None and number is not None:
+            set_status(connection, number, status, user=user)
 
 
 def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:

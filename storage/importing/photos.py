@@ -14,6 +14,7 @@ from fairyring.model.photo import SUFFIXES, probe
 from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing.photo_names import PhotoNames
+from fairyring.storage.records import Status
 
 
 class Photo(Struct, frozen=True, kw_only=True):
@@ -30,6 +31,8 @@ class Photo(Struct, frozen=True, kw_only=True):
     light: str | None = None
     form: str | None = None
     split: str | None = None
+    status: Status | None = None
+    """None where nobody has said anything of a new photo."""
     extra: dict[str, Any] = field(default_factory=dict)
 
 

@@ -6,9 +6,7 @@ import json
 from hashlib import sha256
 from pathlib import Path
 
-import pytest
-
-from fairyring.app.jobs.training_labels import divided, labels_at, labels_of_project
+from fairyring.app.jobs.training_labels import labels_at, labels_of_project
 from fairyring.model.geometry.shapes import Circle
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
@@ -97,35 +95,48 @@ def test_labels_that_cannot_be_used_stop_with_file_and_place_unless_left_out(
     assert "annotation 1" in told
     assert "area" in told
     assert not (tmp_path / "run").exists()
-    assert [len(example.caps) for example in labels_at([file], lenient=True).examples] == [0, 1]
+    assert [len(example.caps) for example in labels_at([file], lenient=True).examples] == [1]
     del document["annotations"][0]
     file.write_text(json.dumps(document))
     (tmp_path / "coco" / "images" / "bed_2.jpg").unlink()
     assert "bed_2.jpg" in sentence(train(file, tmp_path / "run"))
 
 
-@pytest.mark.parametrize(
-    ("splits", "learnt", "checked"),
-    [
-        ([None] * 3, 3, 0),
-        ([None] * 10, 7, 3),
-        (["train"] * 5 + ["val"] * 2 + ["test"], 5, 2),
-        ([None] * 4 + ["test"] * 6, 3, 1),
-    ],
-)
-def test_images_are_divided_by_their_split_else_seven_to_three(
-    labelled: Project, splits: list[str | None], learnt: int, checked: int
-) -> None:
-    import dataclasses
+def test_a_photo_teaches_as_complete_once_somebody_calls_it_annotated(labelled: Project) -> None:
+    labelled.write(lambda connection: set_status(connection, 2, "annotated", user="Ada"))
+    labels = labels_of_project(labelled)
+    assert [(e.path.name, e.complete) for e in labels.examples] == [("bed_1.jpg", False), ("bed_2.jpg", True)]
+    assert [entry.get("complete") for entry in labels.record["images"]] == [False, None]
+    assert labels.left_out == {"without labels": 1}
 
-    some = labels_of_project(labelled)
-    examples = [
-        dataclasses.replace(some.examples[0], path=Path(f"{number}.jpg")) for number in range(len(splits))
-    ]
-    labels = dataclasses.replace(some, examples=examples, splits=splits)
-    train_side, val_side = divided(labels, None, seed=0)
-    assert (len(train_side), len(val_side)) == (learnt, checked)
-    assert not {e.path for e in train_side} & {e.path for e in val_side}
-    alone, given = divided(labels, some, seed=0)
-    assert given == some.examples
-    assert len(alone) == sum(split in (None, "train") for split in splits)
+
+def test_an_empty_photo_teaches_that_nothing_is_there_if_somebody_says_so(labelled: Project) -> None:
+    labelled.write(lambda connection: set_status(connection, 3, "annotated", user="Ada"))
+    *_, empty = labels_of_project(labelled).examples
+    assert (empty.caps, empty.complete) == ([], True)
+
+
+def test_photos_that_teach_nothing_are_counted_by_the_reason(labelled: Project) -> None:
+    annotate(labelled, 3, uid="unsure", visible=circle(50, 50, 20), doubtful=True)
+    assert labels_of_project(labelled).left_out == {"without a cap that can be learnt": 1}
+    labelled.write(lambda connection: set_status(connection, 2, "approved", user="Ada"))
+    assert labels_of_project(labelled).left_out == {"not approved, as others are": 2}
+
+
+def test_a_coco_file_of_others_is_complete_and_one_of_ours_says_which_photos_are(
+    labelled: Project, tmp_path: Path
+) -> None:
+    labelled.write(lambda connection: set_status(connection, 1, "annotated", user="Ada"))
+    export_coco(labelled, tmp_path / "coco")
+    file = tmp_path / "coco" / "instances.json"
+    assert [example.complete for example in labels_at([file]).examples] == [True, False]
+    document = json.loads(file.read_text())
+    for image in document["images"]:
+        del image["status"]
+        image.pop("partial", None)
+    document["images"].append({"id": 7, "file_name": "bare.jpg"})
+    (tmp_path / "coco" / "images" / "bare.jpg").write_bytes((labelled.images / "bed_2.jpg").read_bytes())
+    file.write_text(json.dumps(document))
+    labels = labels_at([file])
+    assert [example.complete for example in labels.examples] == [True, True]
+    assert labels.left_out == {"without labels": 1}

@@ -30,7 +30,11 @@ def test_what_was_trained_on_a_project_predicts_and_is_traced_to_the_revisions_i
     out = tmp_path / "run"
     done = train(labelled.folder, out, "--config", recipe, "--json")
     assert done.exit_code == 0, done.output
-    assert json.loads(done.stdout) == {"weights": str(out / "weights.safetensors"), "validation": {}}
+    told = json.loads(done.stdout)
+    photos = told.pop("photos")
+    assert told == {"weights": str(out / "weights.safetensors"), "validation": {}}
+    assert (photos["complete"], photos["partial"], photos["caps_of_partial"]) == (0, 2, 2)
+    assert "Learns from 2 partly labelled photos (2 caps" in done.stderr
 
     record = json.loads((out / "labels.json").read_bytes())
     assert record["images_are"] == "annotated"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -214,6 +215,23 @@ def test_the_points_of_reading_b_are_told_whether_any_cap_is_there() -> None:
             true.append(corners[image, py - 1, px - 1])
     expected = F.binary_cross_entropy_with_logits(outputs.sharp.logits.flatten(), torch.tensor(true))
     assert float(losses.points) == pytest.approx(float(expected), rel=1e-4)
+
+
+def test_the_points_of_reading_b_say_nothing_of_ground_that_nobody_speaks_of() -> None:
+    network = tiny(point_rend="semantic").eval()
+    made = crop_of(DISCS)
+    unsaid = replace(made, ignored=made.masks.max(0) == 0)
+    whole, part = batch_for(network, made), batch_for(network, unsaid)
+    with torch.no_grad():
+        outputs = network(whole.photos, whole.origins)
+        assert outputs.sharp is not None
+        x, y = outputs.sharp.points[0].long().unbind(1)
+        told = whole.caps[0].masks.amax(0)[y, x] > 0
+        before = losses_of(network, outputs, part).points
+        outputs.sharp.logits[0][~told & (whole.caps[0].masks.amax(0)[y - 1, x - 1] == 0)] += 9
+        assert float(losses_of(network, outputs, whole).points) > float(before) + 1
+        after = losses_of(network, outputs, part).points
+    assert float(after) == pytest.approx(float(before), abs=0.3)
 
 
 def test_bf16_and_full_precision_agree_roughly() -> None:

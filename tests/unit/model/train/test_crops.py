@@ -206,6 +206,25 @@ def test_scale_enlarges_caps() -> None:
     assert made.centres[0] == pytest.approx((128, 128), abs=0.1)
 
 
+def test_a_crop_of_a_photo_labelled_in_part_shows_a_cap_and_ignores_all_else() -> None:
+    caps: list[Outline] = [[polygon_of_shape(Circle(20, 90, 9))], [polygon_of_shape(Circle(140, 15, 9))]]
+    shown = set()
+    for seed in range(40):
+        made = cut_crop(
+            photo(),
+            caps,
+            [],
+            complete=False,
+            augmentation=Augmentation(rotation_deg=10, flip_horizontal=bool(seed % 2)),
+            config=CropConfig(side=32),
+            rng=np.random.default_rng(seed),
+        )
+        assert len(made.masks) == 1
+        np.testing.assert_array_equal(made.ignored, made.masks[0] == 0)
+        shown.add(made.masks[0].tobytes())
+    assert len(shown) > 30
+
+
 def test_crops_come_from_all_over_the_photo() -> None:
     columns = np.arange(WIDTH, dtype=np.uint8)[None, :, None].repeat(HEIGHT, 0).repeat(3, 2)
     firsts = []

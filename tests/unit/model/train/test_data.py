@@ -140,10 +140,29 @@ def test_examples_without_a_labelled_cap_are_refused(examples: list[Example]) ->
             Batches(none, SETTINGS, count=1)
 
 
-def test_photos_without_labels_are_passed_over(examples: list[Example]) -> None:
-    bare = Example(path=Path("nowhere.png"), width=96, height=64, caps=[])
-    batches = Batches([bare, examples[0], bare], SETTINGS, count=3)
-    assert all(len(batches[nth].caps) == 3 for nth in range(3))
+def test_a_photo_without_caps_teaches_that_nothing_is_there(examples: list[Example]) -> None:
+    bare = Example(path=examples[1].path, width=96, height=64, caps=[])
+    settings = SampleConfig(crop=STILL, network=TINY, batch=2, soft=True, seed=0)
+    seen = Batches([bare, examples[0]], settings, count=1)[0]
+    (empty,) = [caps for caps in seen.caps if not len(caps.masks)]
+    assert all((cells == EMPTY).all() for cells in empty.cells)
+
+
+def test_outside_the_caps_of_a_photo_labelled_in_part_nothing_is_learnt(examples: list[Example]) -> None:
+    one = examples[0]
+    example = Example(path=one.path, width=96, height=64, caps=one.caps[:1], complete=False)
+    settings = SampleConfig(crop=STILL, network=TINY, batch=4, soft=True, seed=0)
+    for caps in Batches([example], settings, count=1)[0].caps:
+        inside = caps.masks[0].bool()
+        assert torch.equal(caps.ignored, ~inside)
+        for cells in caps.cells:
+            rows, columns = cells.shape
+            middles = [
+                ((r + 0.5) * 64 / rows, (c + 0.5) * 64 / columns) for r in range(rows) for c in range(columns)
+            ]
+            within = torch.tensor([bool(inside[int(y), int(x)]) for y, x in middles]).view(rows, columns)
+            assert (cells[~within] != EMPTY).all()
+            assert (cells[within] != IGNORED).all()
 
 
 def test_a_photo_that_cannot_be_read_is_named(tmp_path: Path, examples: list[Example]) -> None:

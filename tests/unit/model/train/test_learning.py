@@ -14,6 +14,7 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import CHECKPOINT
 from fairyring.model.train.data import DataError, Example
+from fairyring.model.train.divergence import DivergenceError
 from fairyring.model.train.loop import BEST, CARD, FINAL, TrainError, train
 from tests.support.discs import RECIPE, SHORT
 from tests.support.small_trainings import CPU, digest_after_training, logged
@@ -67,6 +68,15 @@ def test_a_loss_that_is_no_number_stops_the_run_with_a_sentence(
         digest_after_training(examples, out, hot)
     assert (out / CHECKPOINT).exists()
     assert not (out / FINAL).exists()
+
+
+def test_a_loss_far_above_that_of_the_start_stops_the_run(
+    examples: list[Example], tmp_path: Path, learnt: Learnt
+) -> None:
+    base = load_weights(learnt.result.weights).network
+    hot = replace(SHORT, rate=30.0, optimiser="sgd", clip=1e9, iterations=60, warm_up=10, average=0.0)
+    with pytest.raises((DivergenceError, TrainError), match=r"began at|no number"):
+        digest_after_training(examples, tmp_path / "out", hot, base=base)
 
 
 def test_an_empty_set_is_refused(examples: list[Example], tmp_path: Path) -> None:

@@ -7,13 +7,14 @@ from PIL import Image
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
+from fairyring.storage.importing.intake import Facts
 from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import files_of, reasons
 
 
 def test_photos_are_copied_with_size_hash_and_what_was_said_of_them(project, tmp_path, write_photo):
     photo = write_photo(tmp_path / "in" / "Bed 1.PNG", width=64, height=48)
-    report = import_paths(project, [photo], light="side", form="c")
+    report = import_paths(project, [photo], unsaid=Facts(light="side", form="c"))
     assert (report.images, report.images_known, report.problems) == (1, 0, [])
     with project.read() as connection:
         image = find_image(connection, "Bed 1.PNG")

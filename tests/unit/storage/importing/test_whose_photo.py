@@ -6,6 +6,7 @@ import pytest
 
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
+from fairyring.storage.importing.intake import Facts
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.records import Cap
 from tests.support.imported import annotations_of, reasons
@@ -30,7 +31,9 @@ def test_a_photo_beside_the_file_is_taken_along(project, tmp_path, write_coco, w
         {"id": 1, "file_name": "deep/down/bed_9.png", "width": 100, "height": 80, "light": "dark", "x": 1}
     ]
     report = import_paths(
-        project, [write_coco([{"segmentation": TRIANGLE}], images=images)], light="top", form="b"
+        project,
+        [write_coco([{"segmentation": TRIANGLE}], images=images)],
+        unsaid=Facts(light="top", form="b"),
     )
     assert (report.images, report.annotations) == (1, 1)
     with project.read() as connection:
