@@ -21,6 +21,28 @@ class ImportAs(StrEnum):
     predictions = "predictions"
 
 
+class Polygons(StrEnum):
+    """What the polygons of labelme files are."""
+
+    visible = "visible"
+    """What the photo shows of a cap; its whole outline and centre are worked out."""
+    marks = "marks"
+    """The paper's procedure: marks of the whole cap as well, whose fitted ellipse has the centre."""
+
+
+class KnownCaps(StrEnum):
+    """What an import does about caps that the project has already."""
+
+    tell = "tell"
+    """Leaves them as they are, and says how many differ."""
+    keep = "keep"
+    """Leaves them as they are."""
+    update = "update"
+    """Takes what the files say otherwise, as edits."""
+    replace = "replace"
+    """The same, and deletes what the files lack."""
+
+
 class Said(StrEnum):
     """What people say of an image all of whose caps are labelled."""
 

@@ -62,3 +62,5 @@ class Found(Struct, frozen=True, kw_only=True):
     problems: list[Problem]
     categories: dict[str, dict[str, Any]] = field(default_factory=dict)
     """Unknown keys of each category, by its name."""
+    polygons: int = 0
+    """How many polygons of labelme there are, which may be marks as well."""

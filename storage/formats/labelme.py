@@ -1,8 +1,8 @@
 """Reads labelme's JSON: one file an image, polygons and circles.
 
-A polygon was placed by hand: it is the visible outline and the mark. A circle is exactly two points, the
-centre and one on the rim: a mark without a visible outline. Shapes of one ``group_id`` and label are one
-cap: polygons are its parts, a circle its mark.
+A polygon is the visible outline of a cap or, where that is asked for, its mark too. A circle is exactly two
+points, the centre and one on the rim: a mark without a visible outline. Shapes of one ``group_id`` and label
+are one cap: polygons are its parts, a circle its mark.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.model.json_files import parse_json
 from fairyring.model.json_values import ValueRefusedError, kept, number, numbers, size
 from fairyring.storage.cap_validity import MAX_NAME
+from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
 from fairyring.storage.records import Cap, Mark
@@ -23,7 +24,7 @@ SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
 IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "imageWidth"}
 
 
-def parse_labelme(data: bytes, *, file: str) -> Found:
+def parse_labelme(data: bytes, *, file: str, polygons: Polygons = Polygons.visible) -> Found:
     """The image and caps of a labelme file.
 
     What is wrong with single shapes is in ``problems``.
@@ -48,11 +49,12 @@ def parse_labelme(data: bytes, *, file: str) -> Found:
                 {key: value for key, value in document.items() if key not in IMAGE_KEYS},
                 left_out=lambda reason: problems.append(Problem(file, "image", reason)),
             ),
-            caps=[_cap(group) for group in _grouped(shapes)],
+            caps=[_cap(group, polygons) for group in _grouped(shapes)],
         )
     except ValueRefusedError as error:
         raise StoreError(f"{error} Put it right, or export the file anew.") from error
-    return Found(file=file, images=[image], problems=problems)
+    drawn = sum(isinstance(shape.geometry, Polygon) for shape in shapes)
+    return Found(file=file, images=[image], problems=problems, polygons=drawn)
 
 
 class _Shape:
@@ -116,12 +118,17 @@ def _as_caps(group: list[_Shape]) -> list[list[_Shape]]:
     return [group] if circles < 2 else [[shape] for shape in group]
 
 
-def _cap(group: list[_Shape]) -> FoundCap:
-    polygons = [shape.geometry for shape in group if isinstance(shape.geometry, Polygon)]
-    circles = [shape.geometry for shape in group if isinstance(shape.geometry, Circle)]
-    mark: Mark | None = circles[0] if circles else polygons[0] if len(polygons) == 1 else None
+def _cap(group: list[_Shape], polygons: Polygons) -> FoundCap:
+    parts = [shape.geometry for shape in group if isinstance(shape.geometry, Polygon)]
+    marks: list[Mark] = [shape.geometry for shape in group if isinstance(shape.geometry, Circle)]
+    if polygons is Polygons.marks and len(parts) == 1:
+        marks += parts
     return FoundCap(
         where=group[0].where,
-        cap=Cap(visible=[polygon.points for polygon in polygons], mark=mark, category=group[0].label),
+        cap=Cap(
+            visible=[part.points for part in parts],
+            mark=marks[0] if marks else None,
+            category=group[0].label,
+        ),
         extra=group[0].extra,
     )

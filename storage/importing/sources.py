@@ -12,7 +12,7 @@ from msgspec import Struct, field
 from fairyring.model.errors import FairyringError
 from fairyring.model.json_files import unzipped
 from fairyring.model.photo import SUFFIXES
-from fairyring.storage.choices import ImportFormat
+from fairyring.storage.choices import ImportFormat, Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import Found, Problem
@@ -40,7 +40,9 @@ class Sources(Struct, frozen=True, kw_only=True):
     problems: list[Problem] = field(default_factory=list)
 
 
-def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
+def gather(
+    paths: Sequence[Path], *, kind: ImportFormat, polygons: Polygons = Polygons.visible
+) -> Sources:
     """Reads the label files and lists the photos.
 
     Folders are searched to the bottom, in the order of names. What is passed over there is among the
@@ -56,9 +58,9 @@ def gather(paths: Sequence[Path], *, kind: ImportFormat) -> Sources:
             raise StoreError(f"{path} is an archive; unpack it and import the folder.")
         if path.is_dir():
             for file in _files_below(path, sources.problems):
-                _take(file, sources, kind=kind, named=False)
+                _take(file, sources, kind=kind, polygons=polygons, named=False)
         elif path.exists():
-            _take(path, sources, kind=kind, named=True)
+            _take(path, sources, kind=kind, polygons=polygons, named=True)
         else:
             raise StoreError(f"{path} does not exist; check the path.")
     return sources
@@ -93,11 +95,13 @@ def _reason_to_pass_over(path: Path) -> str | None:
     return None
 
 
-def _take(file: Path, sources: Sources, *, kind: ImportFormat, named: bool) -> None:
+def _take(
+    file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons, named: bool
+) -> None:
     is_document = _holds_labels(file) or (named and kind in (ImportFormat.coco, ImportFormat.labelme))
     is_photo = named or file.suffix.lower() in SUFFIXES
     if is_document and kind != ImportFormat.images:
-        _read(file, sources, kind=kind)
+        _read(file, sources, kind=kind, polygons=polygons)
     elif is_photo and kind in (ImportFormat.auto, ImportFormat.images):
         sources.photos.append(file)
     elif named:
@@ -111,10 +115,10 @@ def _holds_labels(file: Path) -> bool:
     return file.name.lower().endswith(LABEL_SUFFIXES)
 
 
-def _read(file: Path, sources: Sources, *, kind: ImportFormat) -> None:
+def _read(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons) -> None:
     try:
         data = file.read_bytes()
-        found = _parse(unzipped(data), file=str(file), kind=kind)
+        found = _parse(unzipped(data), file=str(file), kind=kind, polygons=polygons)
         sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
     except FairyringError as error:
         sources.problems.append(Problem(str(file), "", str(error)))
@@ -122,9 +126,9 @@ def _read(file: Path, sources: Sources, *, kind: ImportFormat) -> None:
         sources.problems.append(Problem(str(file), "", f"It cannot be read: {error.strerror}."))
 
 
-def _parse(data: bytes, *, file: str, kind: ImportFormat) -> Found:
+def _parse(data: bytes, *, file: str, kind: ImportFormat, polygons: Polygons) -> Found:
     if kind == ImportFormat.labelme or (kind == ImportFormat.auto and _looks_like_labelme(data)):
-        return parse_labelme(data, file=file)
+        return parse_labelme(data, file=file, polygons=polygons)
     return parse_coco(data, file=file)
 
 

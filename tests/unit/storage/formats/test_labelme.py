@@ -3,6 +3,7 @@ import json
 import pytest
 
 from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.labelme import parse_labelme
 
@@ -20,20 +21,23 @@ def shape(points=TRIANGLE, **keys):
     } | keys
 
 
-def parse(*shapes, **keys):
+def parse(*shapes, polygons=Polygons.visible, **keys):
     document = {"version": "5.0", "shapes": list(shapes), "imagePath": "bed.png", "imageData": None}
-    return parse_labelme(json.dumps(document | keys).encode(), file="bed.json")
+    return parse_labelme(json.dumps(document | keys).encode(), file="bed.json", polygons=polygons)
 
 
-def caps(*shapes):
-    found = parse(*shapes)
+def caps(*shapes, **keys):
+    found = parse(*shapes, **keys)
     assert found.problems == []
     return [cap.cap for cap in found.images[0].caps]
 
 
-def test_a_polygon_is_the_visible_outline_and_the_mark():
+def test_a_polygon_is_the_visible_outline_and_where_asked_for_the_mark():
     (cap,) = caps(shape())
-    assert (cap.visible, cap.mark, cap.category) == ([FLAT], Polygon(FLAT), "mushroom")
+    assert (cap.visible, cap.mark, cap.category) == ([FLAT], None, "mushroom")
+    (marked,) = caps(shape(), polygons=Polygons.marks)
+    assert (marked.visible, marked.mark) == ([FLAT], Polygon(FLAT))
+    assert parse(shape(), shape([[20, 20], [23, 24]], shape_type="circle")).polygons == 1
 
 
 def test_a_circle_is_its_centre_and_a_point_on_its_rim():
@@ -42,11 +46,18 @@ def test_a_circle_is_its_centre_and_a_point_on_its_rim():
 
 
 def test_shapes_of_one_group_and_label_are_one_cap():
-    parts = caps(shape(group_id=1), shape([[50, 50], [60, 50], [55, 60]], group_id=1), shape(group_id=2))
+    parts = caps(
+        shape(group_id=1),
+        shape([[50, 50], [60, 50], [55, 60]], group_id=1),
+        shape(group_id=2),
+        polygons=Polygons.marks,
+    )
     assert [len(cap.visible) for cap in parts] == [2, 1]
     assert [cap.mark for cap in parts] == [None, Polygon(FLAT)]
-    (both,) = caps(shape(group_id=3), shape([[20, 20], [20, 30]], shape_type="circle", group_id=3))
-    assert (both.visible, both.mark) == ([FLAT], Circle(20, 20, 10))
+    rim = shape([[20, 20], [20, 30]], shape_type="circle", group_id=3)
+    for polygons in Polygons:
+        (both,) = caps(shape(group_id=3), rim, polygons=polygons)
+        assert (both.visible, both.mark) == ([FLAT], Circle(20, 20, 10))
     assert len(caps(shape(group_id=1), shape(group_id=1, label="button"))) == 2
 
 
