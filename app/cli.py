@@ -8,7 +8,17 @@ from typing import Annotated
 
 import typer
 
-from fairyring.app.commands import benchmarks, contour, demo, evaluate, network, project, serve, synth
+from fairyring.app.commands import (
+    benchmarks,
+    contour,
+    demo,
+    evaluate,
+    imports,
+    network,
+    project,
+    serve,
+    synth,
+)
 from fairyring.app.commands.version import print_version
 from fairyring.model.errors import FairyringError
 
@@ -21,7 +31,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command("init")(project.init)
-app.command("import")(project.import_)
+app.command("import")(imports.import_)
 app.command("serve")(serve.serve)
 app.command("export")(project.export)
 app.command("backup")(project.backup)

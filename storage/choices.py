@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
+from enum import Enum, StrEnum
 
 
 class ImportFormat(StrEnum):
@@ -30,7 +30,7 @@ class Polygons(StrEnum):
     """The paper's procedure: marks of the whole cap as well, whose fitted ellipse has the centre."""
 
 
-class KnownCaps(StrEnum):
+class KnownCaps(Enum):
     """What an import does about caps that the project has already."""
 
     tell = "tell"

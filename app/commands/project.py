@@ -1,4 +1,4 @@
-"""Commands on a project folder: init, import, export, backup, restore."""
+"""Commands on a project folder: init, export, backup, restore."""
 
 from __future__ import annotations
 
@@ -10,13 +10,11 @@ import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson
-from fairyring.model.light_and_form import FORMS, LightSource
-from fairyring.storage.choices import ExportFormat, ImportAs, ImportFormat, Only, Said
+from fairyring.storage.choices import ExportFormat, Only
 from fairyring.storage.folder import IMAGES, WEIGHTS
 
 if TYPE_CHECKING:
     from fairyring.storage.backup import Backup
-    from fairyring.storage.importing.paths import ImportReport
 
 ProjectFolder = Annotated[Path, typer.Argument(metavar="PROJECT", help="The project's folder.")]
 
@@ -34,70 +32,6 @@ def init(
 
     create_project(folder, url=db).close()
     typer.echo(f"Made {folder}. Next: fairyring import {folder} PHOTOS", err=True)
-
-
-def import_(
-    folder: ProjectFolder,
-    paths: Annotated[list[Path], typer.Argument(metavar="PATH...", help="Images, folders, JSON files.")],
-    *,
-    format_: Annotated[
-        ImportFormat, typer.Option("--format", help="What the paths hold.")
-    ] = ImportFormat.auto,
-    as_: Annotated[ImportAs, typer.Option("--as", help="What the shapes become.")] = ImportAs.annotations,
-    strict: Annotated[bool, typer.Option(help="Take nothing if anything is wrong.")] = False,
-    link: Annotated[bool, typer.Option(help="Leave the images where they are; do not copy.")] = False,
-    light: Annotated[LightSource | None, typer.Option(help="Light source of these images.")] = None,
-    form: Annotated[str | None, typer.Option(help="The paper's form of these images, a to h.")] = None,
-    status: Annotated[
-        Said | None,
-        typer.Option(help="Say of labelled images that all their caps are; else their file says, or nobody."),
-    ] = None,
-    as_json: AsJson = False,
-) -> None:
-    """Take in images and labels; report everything that is wrong, with file and reason.
-
-    Example: `fairyring import beds photos/ labels.json --as predictions`
-    """
-    from fairyring.app.caps.filling_in import fill_in
-    from fairyring.storage.importing.intake import Facts
-    from fairyring.storage.importing.paths import import_paths
-    from fairyring.storage.project import open_project
-
-    if form is not None and form not in FORMS:
-        raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
-    with open_project(folder) as project, shown_on_stderr() as progress:
-        report = import_paths(
-            project,
-            paths,
-            kind=format_,
-            as_=as_,
-            strict=strict,
-            link=link,
-            unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
-            progress=progress,
-        )
-        fill_in(project, progress=progress)
-    _print_import(report, as_json=as_json)
-
-
-def _print_import(report: ImportReport, *, as_json: bool) -> None:
-    for problem in report.problems:
-        typer.echo(str(problem), err=True)
-    figures = {
-        "images": report.images,
-        "images_known": report.images_known,
-        "annotations": report.annotations,
-        "predictions": report.predictions,
-        "known": report.known,
-        "problems": len(report.problems),
-    }
-    if as_json:
-        typer.echo(json.dumps(figures))
-        return
-    typer.echo(
-        f"{report.images} new images, {report.annotations} annotations, {report.predictions} predictions; "
-        f"already there: {report.images_known} images, {report.known} shapes; {len(report.problems)} problems"
-    )
 
 
 def export(

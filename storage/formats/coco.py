@@ -173,6 +173,8 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
         whole=shape,
         centre=centre_of(entry),
         uid=entry["uid"] if isinstance(entry.get("uid"), str) else None,
+        id=own if isinstance(own := own_id(entry), int) else None,
+        is_mask=isinstance(segmentation, dict),
         rle=segmentation if isinstance(segmentation, dict) else None,
         extra=_kept(extra, where, faults),
     )

@@ -98,10 +98,15 @@ def write_document(file: BinaryIO, head: dict[str, Any], entries: Iterable[dict[
     return count
 
 
+def written_outline(visible: Outline, mark: Mark | None, *, size: tuple[int, int]) -> Outline:
+    """The ``segmentation`` of a cap: its visible outline, else its mark as a polygon."""
+    return rounded_outline(_inside(visible or [_polygon_of(mark)], size))
+
+
 def _geometry(
     visible: Outline, mark: Mark | None, whole: Shape | None, *, size: tuple[int, int]
 ) -> dict[str, Any]:
-    entry = outline_keys(rounded_outline(_inside(visible or [_polygon_of(mark)], size)))
+    entry = outline_keys(written_outline(visible, mark, size=size))
     if not visible:
         entry["segmentation_of"] = "mark"
     if isinstance(mark, Polygon):

@@ -32,6 +32,11 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
     uid: str | None = None
+    id: int | None = None
+    """Its number in the file."""
+    file: str = ""
+    is_mask: bool = False
+    """Whether its outline was traced from a mask."""
     rle: dict[str, Any] | None = None
     """An RLE in place of the visible outline; it is decoded once the photo's size is known."""
     extra: dict[str, Any] = field(default_factory=dict)

@@ -38,7 +38,7 @@ def check_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[li
     problems: list[Problem] = []
     for cap in caps:
         try:
-            checked, left_out = _checked(cap, photo)
+            checked, left_out = _checked(structs.replace(cap, file=file), photo)
         except FairyringError as error:
             problems.append(Problem(file, cap.where, str(error)))
             continue

@@ -40,9 +40,7 @@ class Sources(Struct, frozen=True, kw_only=True):
     problems: list[Problem] = field(default_factory=list)
 
 
-def gather(
-    paths: Sequence[Path], *, kind: ImportFormat, polygons: Polygons = Polygons.visible
-) -> Sources:
+def gather(paths: Sequence[Path], *, kind: ImportFormat, polygons: Polygons = Polygons.visible) -> Sources:
     """Reads the label files and lists the photos.
 
     Folders are searched to the bottom, in the order of names. What is passed over there is among the
@@ -95,9 +93,7 @@ def _reason_to_pass_over(path: Path) -> str | None:
     return None
 
 
-def _take(
-    file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons, named: bool
-) -> None:
+def _take(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons, named: bool) -> None:
     is_document = _holds_labels(file) or (named and kind in (ImportFormat.coco, ImportFormat.labelme))
     is_photo = named or file.suffix.lower() in SUFFIXES
     if is_document and kind != ImportFormat.images:

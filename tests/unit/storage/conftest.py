@@ -73,6 +73,12 @@ def project_of_three(tmp_path_factory, write_photo):
 
 
 @pytest.fixture
+def out(tmp_path):
+    """Where to export to."""
+    return tmp_path / "out"
+
+
+@pytest.fixture
 def project(empty_project, tmp_path):
     """An empty project."""
     with open_project(shutil.copytree(empty_project, tmp_path / "beds")) as opened:

@@ -1,4 +1,4 @@
-"""Where to export to, and a project to choose from."""
+"""A project to choose from."""
 
 import pytest
 
@@ -7,11 +7,6 @@ from fairyring.storage.predictions import NewPrediction, add_predictions, add_ru
 from fairyring.storage.records import Cap
 from fairyring.storage.statuses import set_status
 from tests.support.exported import SQUARE, TRIANGLE, store
-
-
-@pytest.fixture
-def out(tmp_path):
-    return tmp_path / "out"
 
 
 @pytest.fixture

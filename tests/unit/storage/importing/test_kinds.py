@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing.paths import import_paths
 from tests.support.imported import annotations_of
@@ -25,10 +26,30 @@ def test_a_folder_of_labelme_files_and_photos(project, tmp_path, write_photo):
         (folder / f"{name}.json").write_text(json.dumps(document))
     report = import_paths(project, [folder])
     assert (report.images, report.annotations, report.problems) == (2, 4, [])
+    assert report.polygons == 2
     outlined, marked = annotations_of(project, image=2)
-    assert outlined.cap.mark == Polygon(outlined.cap.visible[0])
+    assert outlined.cap.mark is None
     assert (marked.cap.visible, marked.cap.mark, marked.whole) == ([], Circle(50, 50, 8), Circle(50, 50, 8))
     assert import_paths(project, [folder]).known == 4
+
+
+def test_the_same_outline_from_coco_and_from_labelme_is_one_cap(beds, tmp_path, write_coco, square):
+    shape = {"label": "mushroom", "points": [[10, 10], [30, 10], [30, 30], [10, 30]]}
+    labelme = tmp_path / "bed_1.json"
+    labelme.write_text(json.dumps({"shapes": [shape], "imagePath": "bed_1.png"}))
+    coco = write_coco([{"segmentation": square}])
+    assert import_paths(beds, [coco]).annotations == 1
+    again = import_paths(beds, [labelme])
+    assert (again.annotations, again.known) == (0, 1)
+
+
+def test_labelme_polygons_are_marks_where_that_is_said(beds, tmp_path):
+    shape = {"label": "mushroom", "points": [[10, 10], [30, 10], [30, 30], [10, 30]]}
+    file = tmp_path / "bed_1.json"
+    file.write_text(json.dumps({"shapes": [shape], "imagePath": "bed_1.png"}))
+    import_paths(beds, [file], polygons=Polygons.marks)
+    (annotation,) = annotations_of(beds)
+    assert annotation.cap.mark == Polygon(annotation.cap.visible[0])
 
 
 def test_the_format_can_be_said(beds, write_coco, square, tmp_path):

@@ -1,0 +1,170 @@
+"""The second half of an import: all that was read and checked is stored, in one transaction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from hashlib import sha256
+from typing import Any
+
+from msgspec import Struct, structs
+from sqlalchemy import Connection
+
+from fairyring.storage.choices import KnownCaps
+from fairyring.storage.errors import StoreError
+from fairyring.storage.folder import IMAGES
+from fairyring.storage.formats.found import Problem
+from fairyring.storage.images import set_status
+from fairyring.storage.importing.changing import edits_of, record
+from fairyring.storage.importing.comparing import Compared, compare, is_as_compared
+from fairyring.storage.importing.entering import (
+    Labelled,
+    enter_annotations,
+    enter_photo,
+    enter_predictions,
+    tell_more,
+)
+from fairyring.storage.importing.intake import Intake
+from fairyring.storage.importing.photos import Photo, photos_of_project
+from fairyring.storage.importing.sources import Sources
+from fairyring.storage.importing.staging import Staging
+from fairyring.storage.predictions import add_run
+from fairyring.storage.records import Run
+
+
+class ImportReport(Struct, frozen=True, kw_only=True):
+    """What an import did."""
+
+    images: int
+    """New ones."""
+    images_known: int
+    annotations: int = 0
+    """New ones."""
+    predictions: int = 0
+    """New ones."""
+    known: int = 0
+    """How many annotations or predictions were there already."""
+    changed: int = 0
+    """Of how many known annotations the files say something else."""
+    gone: int = 0
+    """How many annotations of the images no file has."""
+    edits: int = 0
+    """How many edits brought the project to what the files say."""
+    run: int | None = None
+    """The run that new predictions belong to."""
+    polygons: int = 0
+    """How many polygons of labelme there were, which may be taken in two ways."""
+    problems: list[Problem]
+
+
+class Parcel(Struct, frozen=True, kw_only=True):
+    """What is to be stored, and how."""
+
+    sources: Sources
+    intake: Intake
+    compared: Sequence[Compared] | None
+    """Of annotations, what they are to the project's; None for predictions."""
+    known_caps: KnownCaps
+    link: bool
+    """Photos stay where they are."""
+    user: str
+
+
+def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportReport:
+    """Stores a parcel; its photos get their names just before that is committed."""
+    intake = parcel.intake
+    photos = photos_of_project(connection)
+    new = [photo for photo in intake.new_photos if not _is_known(photo, photos)]
+    for photo in new:
+        linked = str(photo.source and photo.source.resolve())
+        path = linked if parcel.link else f"{IMAGES}/{photo.file_name}"
+        photos[photo.file_name] = enter_photo(connection, photo, path=path)
+    for name in intake.seen:
+        if intake.photos[name].id is not None and intake.photos[name] != photos[name]:
+            tell_more(connection, intake.photos[name])
+    report = ImportReport(
+        images=len(new),
+        images_known=len(intake.seen) - len(new),
+        polygons=sum(document.found.polygons for document in parcel.sources.documents),
+        problems=intake.problems,
+    )
+    if parcel.compared is None:
+        report = _store_predictions(connection, parcel, photos, report)
+    else:
+        report = _store_annotations(connection, parcel, photos, report)
+        _set_statuses(connection, intake, photos, user=parcel.user)
+    copies.move_in()
+    return report
+
+
+def _store_annotations(
+    connection: Connection, parcel: Parcel, photos: dict[str, Photo], report: ImportReport
+) -> ImportReport:
+    assert parcel.compared is not None
+    compared = [_as_now(connection, each, photos[each.photo.file_name]) for each in parcel.compared]
+    labelled = [Labelled(photo=photos[each.photo.file_name], caps=each.new) for each in compared]
+    entered = enter_annotations(connection, labelled, categories=_categories(parcel), user=parcel.user)
+    edits = [edit for each in compared for edit in edits_of(each, parcel.known_caps)]
+    record(connection, edits, user=parcel.user)
+    return structs.replace(
+        report,
+        annotations=entered.new,
+        known=entered.known + sum(each.known for each in compared),
+        changed=sum(len(each.changed) for each in compared),
+        gone=sum(len(each.gone) for each in compared),
+        edits=len(edits),
+    )
+
+
+def _as_now(connection: Connection, compared: Compared, photo: Photo) -> Compared:
+    """What was compared before the transaction began; anew where somebody was quicker."""
+    return (
+        compared if is_as_compared(connection, compared, photo) else compare(connection, photo, compared.caps)
+    )
+
+
+def _store_predictions(
+    connection: Connection, parcel: Parcel, photos: dict[str, Photo], report: ImportReport
+) -> ImportReport:
+    labelled = [Labelled(photo=photos[name], caps=caps) for name, caps in parcel.intake.caps.items()]
+    if not labelled:
+        return report
+    run = _run_of(connection, parcel.sources)
+    entered = enter_predictions(connection, labelled, categories=_categories(parcel), run_id=run.id)
+    return structs.replace(report, predictions=entered.new, known=entered.known, run=run.id)
+
+
+def _categories(parcel: Parcel) -> dict[str, dict[str, Any]]:
+    """Unknown keys of the categories, by name."""
+    return {
+        name: extra
+        for document in parcel.sources.documents
+        for name, extra in document.found.categories.items()
+    }
+
+
+def _set_statuses(connection: Connection, intake: Intake, photos: dict[str, Photo], *, user: str) -> None:
+    for name in sorted(intake.seen):
+        number, status = photos[name].id, intake.photos[name].status
+        if status is not None and number is not None:
+            set_status(connection, number, status, user=user)
+
+
+def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:
+    """Whether somebody else has imported this photo while this import was reading."""
+    other = photos.get(photo.file_name)
+    if other is not None and other.sha256 != photo.sha256:
+        raise StoreError(f"Another image called {photo.file_name} was imported just now; import again.")
+    return other is not None
+
+
+def _run_of(connection: Connection, sources: Sources) -> Run:
+    """The run of imported predictions; the same files always belong to the same one."""
+    names = [document.path.name for document in sources.documents]
+    digests = sorted(document.sha256 for document in sources.documents)
+    return add_run(
+        connection,
+        name=names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more",
+        kind="import",
+        settings={"files": names[:100]},
+        key=sha256("".join(digests).encode()).hexdigest(),
+    )
