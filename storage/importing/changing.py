@@ -14,6 +14,7 @@ from fairyring.storage.importing.comparing import Compared
 from fairyring.storage.journal import digest_of
 from fairyring.storage.ledger import open_ledger
 from fairyring.storage.records import Annotation, Cap, Edit
+from fairyring.storage.statuses import follow_edits
 
 
 def edits_of(compared: Compared, known_caps: KnownCaps) -> list[Edit]:
@@ -31,11 +32,13 @@ def record(connection: Connection, edits: Sequence[Edit], *, user: str) -> None:
     """Stores edits that were made on the annotations as they are; what follows from them is lacking then."""
     if not edits:
         return
-    ledger = open_ledger(connection, edits)
+    ledger = open_ledger(connection, edits, user=user)
     for edit in edits:
         ledger.record(edit, edit.cap, Fit(), digest=digest_of(edit), user=user)
-    ledger.write(connection)
-    recount(connection, {edit.image for edit in edits})
+    entered = ledger.write(connection)
+    recount(connection, {image for image, _ in entered})
+    for image, number in entered:
+        follow_edits(connection, image, number, takes_back=False, user=user)
 
 
 def _edit(annotation: Annotation, cap: Cap | None) -> Edit:

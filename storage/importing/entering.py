@@ -59,7 +59,7 @@ def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
         added_at=now(),
     )
     number = connection.execute(statement.returning(schema.image.c.id)).scalar_one()
-    return structs.replace(photo, id=number)
+    return structs.replace(photo, id=number, status="new")
 
 
 def tell_more(connection: Connection, photo: Photo) -> None:

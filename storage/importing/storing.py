@@ -13,7 +13,6 @@ from fairyring.storage.choices import KnownCaps
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import IMAGES
 from fairyring.storage.formats.found import Problem
-from fairyring.storage.images import set_status
 from fairyring.storage.importing.changing import edits_of, record
 from fairyring.storage.importing.comparing import Compared, compare, is_as_compared
 from fairyring.storage.importing.entering import (
@@ -29,6 +28,7 @@ from fairyring.storage.importing.sources import Sources
 from fairyring.storage.importing.staging import Staging
 from fairyring.storage.predictions import add_run
 from fairyring.storage.records import Run
+from fairyring.storage.statuses import set_status
 
 
 class ImportReport(Struct, frozen=True, kw_only=True):
@@ -144,9 +144,9 @@ def _categories(parcel: Parcel) -> dict[str, dict[str, Any]]:
 
 def _set_statuses(connection: Connection, intake: Intake, photos: dict[str, Photo], *, user: str) -> None:
     for name in sorted(intake.seen):
-        number, status = photos[name].id, intake.photos[name].status
-        if status is not None and number is not None:
-            set_status(connection, number, status, user=user)
+        photo, status = photos[name], intake.photos[name].status
+        if photo.id is not None and status not in (None, photo.status):
+            set_status(connection, photo.id, status, user=user)
 
 
 def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:

@@ -63,7 +63,7 @@ def square(keys: dict[str, Any], said: str = "", to: tuple[str, ...] = SHAPES, *
 THREE = "A polygon needs at least three points"
 NUMBERS = "A polygon's coordinates must be numbers"
 FINITE = "A polygon's coordinates must be finite numbers"
-RADIUS = "A radius must be more than 0"
+RADIUS = "A radius must be at least 0.25 px"
 ROWS = {
     "a flat list is one part": seen(SQUARE),
     "one bad part of two": seen(

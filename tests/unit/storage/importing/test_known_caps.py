@@ -7,9 +7,11 @@ import pytest
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.choices import KnownCaps
+from fairyring.storage.images import get_image
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import Derived, commit, history
 from fairyring.storage.records import Cap, Edit
+from fairyring.storage.statuses import set_status
 from tests.support.exported import export, store
 from tests.support.imported import annotations_of, rows_of
 from tests.support.other_tools import as_cvat, write_labelme
@@ -76,6 +78,21 @@ def test_replacing_deletes_what_the_file_lacks_and_brings_back_what_it_has(three
     assert (report.gone, report.edits) == (1, 2)
     assert outlines(beds) == [square, TRIANGLE]
     assert import_paths(beds, [file], known_caps=KnownCaps.replace).edits == 0
+
+
+def test_an_approved_image_is_so_no_longer_once_an_import_changes_it(three, square):
+    beds, file = three
+    beds.write(lambda connection: set_status(connection, 1, "approved", user="Ada"))
+    assert import_paths(beds, [file]).known == 3
+    assert status_of(beds) == "approved"
+    edited(file, lambda caps: caps[0].update(segmentation=moved(square, 2)))
+    import_paths(beds, [file], known_caps=KnownCaps.update)
+    assert status_of(beds) == "annotated"
+
+
+def status_of(project):
+    with project.read() as connection:
+        return get_image(connection, 1).status
 
 
 def test_a_new_cap_beside_known_ones_is_taken_either_way(three):
