@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.network import Device, OnDevice
+from fairyring.app.commands.network import Device, Fast, OnDevice, looks_of
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson, print_rows
 
 if TYPE_CHECKING:
     from fairyring.app.bench.network.sets import LabelledPhotos
-    from fairyring.model.predict.predictor import Predictor
+    from fairyring.model.photo import Pixels
+    from fairyring.model.predict.predictor import Detection
 
 commands = typer.Typer(
     no_args_is_help=True,
@@ -42,6 +44,7 @@ def success(
     real: Real = None,
     pictures: Pictures = None,
     device: OnDevice = Device.auto,
+    fast: Fast = False,
     as_json: AsJson = False,
 ) -> None:
     """Masks found, by light, form and size (the paper's Figure 13), on the rendered test beds.
@@ -52,7 +55,7 @@ def success(
     from fairyring.app.bench.network.pictures import draw_examples
 
     rows = []
-    for photos, predicted in _predicted(weights, beds, count, real, device):
+    for photos, predicted in _predicted(weights, beds, count, real, device, fast=fast):
         rows += [{"set": photos.name} | row for row in tables.success_rows(predicted, photos)]
         if pictures is not None:
             draw_examples(predicted, photos, pictures)
@@ -67,6 +70,7 @@ def centres(
     count: Count = None,
     real: Real = None,
     device: OnDevice = Device.auto,
+    fast: Fast = False,
     as_json: AsJson = False,
 ) -> None:
     """From image to centre: CDR, pixels, missed and extra caps, on the rendered test beds.
@@ -77,7 +81,7 @@ def centres(
 
     rows = [
         row
-        for photos, predicted in _predicted(weights, beds, count, real, device)
+        for photos, predicted in _predicted(weights, beds, count, real, device, fast=fast)
         for row in tables.centre_rows(predicted, photos)
     ]
     print_rows("centres", rows, as_json=as_json)
@@ -85,7 +89,12 @@ def centres(
 
 @commands.command()
 def cost(
-    *, weights: Weights = None, beds: Beds = None, device: OnDevice = Device.auto, as_json: AsJson = False
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    device: OnDevice = Device.auto,
+    fast: Fast = False,
+    as_json: AsJson = False,
 ) -> None:
     """Time of each stage from a decoded 1280 × 720 photo to stored centres, and memory.
 
@@ -96,7 +105,7 @@ def cost(
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
-    predictor = network_of(weights or SHIPPED, device=device).predictor
+    predictor = network_of(weights or SHIPPED, device=device, looks=looks_of(fast=fast)).predictor
     with _folder(beds) as folder, shown_on_stderr() as progress:
         photos = rendered("paper", folder, count=1, progress=progress)
         rows = cost_rows(predictor, photos)
@@ -155,29 +164,31 @@ def ablation(
 
 
 def _predicted(
-    weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str
+    weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str, *, fast: bool
 ) -> Iterator[tuple[LabelledPhotos, dict[str, Any]]]:
     """Each set of photos with the network's predictions for it."""
     from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.bench.network.tables import predicted_document
 
-    predictor = _predictor(weights, device)
+    detect = _detecting(weights, device, fast=fast)
     with _folder(beds) as folder, shown_on_stderr() as progress:
         for name in TEST_BEDS:
             photos = rendered(name, folder, count=count, progress=progress)
-            yield photos, predicted_document(predictor, photos, progress=progress)
+            yield photos, predicted_document(detect, photos, progress=progress)
         if real is not None:
             photos = checked(real)
-            yield photos, predicted_document(predictor, photos, progress=progress)
+            yield photos, predicted_document(detect, photos, progress=progress)
 
 
-def _predictor(weights: Path | None, device: str) -> Predictor:
+def _detecting(weights: Path | None, device: str, *, fast: bool) -> Callable[[Pixels], list[Detection]]:
     from fairyring.model.device import device_of
     from fairyring.model.network.weights import load_weights
-    from fairyring.model.predict.predictor import Predictor
+    from fairyring.model.predict.predictor import PredictConfig, Predictor
+    from fairyring.model.predict.scale import detect_at_its_scale
     from fairyring.model.predict.shipped import SHIPPED
 
-    return Predictor(load_weights(weights or SHIPPED).network, device=device_of(device))
+    network, settings = load_weights(weights or SHIPPED).network, PredictConfig(looks=looks_of(fast=fast))
+    return partial(detect_at_its_scale, Predictor(network, device=device_of(device), settings=settings))
 
 
 @contextmanager

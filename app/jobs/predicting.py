@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,9 @@ from fairyring.model.geometry.outline_checks import usable_outline
 from fairyring.model.geometry.shapes import Fit, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
+from fairyring.model.predict.looks import TWO_LOOKS, Look
 from fairyring.model.predict.predictor import PredictConfig, Predictor
+from fairyring.model.predict.scale import detect_at_its_scale
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.images import get_image, keep_statistics
 from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
@@ -44,6 +46,8 @@ class Network:
     """SHA-256 of the weights."""
     settings: dict[str, Any]
     """All other settings that decide its predictions."""
+    diameter: float | None
+    """How wide the photos' middling caps are, pixels; None: looked for in each photo."""
 
 
 @dataclass(kw_only=True)
@@ -70,17 +74,29 @@ class Outcome:
         return "; ".join(parts).removesuffix(".") + "."
 
 
-def network_of(weights: Path, *, device: str = "auto", least_score: float = LEAST_SCORE) -> Network:
+def network_of(
+    weights: Path,
+    *,
+    device: str = "auto",
+    least_score: float = LEAST_SCORE,
+    looks: tuple[Look, ...] = TWO_LOOKS,
+    diameter: float | None = None,
+) -> Network:
     """Reads weights; those read last are kept ready. Raises WeightsError, DeviceError."""
     changed = weights.stat().st_mtime_ns if weights.exists() else 0
-    return _network_of(weights, changed, device, least_score)
+    network = _network_of(weights, changed, device, least_score, looks)
+    if diameter is None:
+        return network
+    return replace(network, diameter=diameter, settings=network.settings | {"diameter": diameter})
 
 
 @lru_cache(maxsize=1)
-def _network_of(weights: Path, _changed: int, device: str, least_score: float) -> Network:
+def _network_of(
+    weights: Path, _changed: int, device: str, least_score: float, looks: tuple[Look, ...]
+) -> Network:
     on = device_of(device)
     loaded = load_weights(weights)
-    config, settings = loaded.network.config, PredictConfig(least_score=least_score)
+    config, settings = loaded.network.config, PredictConfig(least_score=least_score, looks=looks)
     predictor = Predictor(loaded.network, device=on, settings=settings)
     return Network(
         predictor=predictor,
@@ -91,7 +107,9 @@ def _network_of(weights: Path, _changed: int, device: str, least_score: float) -
             "decode": msgspec.to_builtins(settings.decode),
             "finest": settings.finest,
             "least_score": least_score,
+            "looks": [msgspec.to_builtins(look) for look in looks],
         },
+        diameter=None,
     )
 
 
@@ -168,10 +186,10 @@ def _predictions_of(
     network: Network, project: Project, image: Image, compute: Run
 ) -> tuple[list[NewPrediction], dict[str, float]]:
     """What the network sees in a photo, and the statistics by which its caps were fitted."""
-    pixels = photo.read(project.originals.path_of(image))
+    rgb = np.ascontiguousarray(photo.read(project.originals.path_of(image))[:, :, ::-1])
     found = [
         (detection.score, outline)
-        for detection in network.predictor.detect(np.ascontiguousarray(pixels[:, :, ::-1]))
+        for detection in detect_at_its_scale(network.predictor, rgb, diameter=network.diameter)
         if (outline := usable_outline(detection.outline, width=image.width, height=image.height))
     ]
     fits, statistics = compute(fitted_anew, image, [outline for _, outline in found])

@@ -22,11 +22,14 @@ from fairyring.storage.folder import WEIGHTS
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
 
+WIDTH_HINT = "How wide most caps are in the photos. 0: measured in each photo."
+
 
 def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the line that names the weights, and the two buttons."""
     gui = session.client.gui
     shown = gui.add_html("")
+    width = gui.add_number("Cap width, px", 0, min=0, max=5000, step=1, hint=WIDTH_HINT)
     one = gui.add_button("Predict this image")
     every = gui.add_button("Predict every image")
 
@@ -45,8 +48,10 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             # Waits, so that nobody is told of the end before the last image is drawn.
             asyncio.run_coroutine_threadsafe(show_predictions(workspace, image_id), loop).result()
 
-        compute = workspace.crew.patient.run
-        work = predict_work(workspace.project, image_ids, compute=compute, predicted=predicted)
+        compute, diameter = workspace.crew.patient.run, float(width.value) or None
+        work = predict_work(
+            workspace.project, image_ids, diameter=diameter, compute=compute, predicted=predicted
+        )
         workspace.start_job(session, title, work)
 
     one.on_click(person_did(session, predict_one))
@@ -73,7 +78,12 @@ def weights_line(found: Path | None, project: Project) -> Markup:
 
 
 def predict_work(
-    project: Project, image_ids: Sequence[int], *, compute: Run, predicted: Callable[[int], None]
+    project: Project,
+    image_ids: Sequence[int],
+    *,
+    diameter: float | None = None,
+    compute: Run,
+    predicted: Callable[[int], None],
 ) -> Callable[[Progress], Result]:
     """The work of a job that predicts images, whose caps ``compute`` has fitted.
 
@@ -86,7 +96,7 @@ def predict_work(
         from fairyring.app.jobs.predicting import leave_a_core, network_of, predict_images
 
         leave_a_core()
-        network = network_of(require_weights(project))
+        network = network_of(require_weights(project), diameter=diameter)
         outcome = predict_images(
             project, network, image_ids, compute=compute, progress=progress, predicted=predicted
         )

@@ -52,7 +52,7 @@ def resolve_overlaps(
     Where two caps touch, the edge then runs where they are equally sure. Components under half of the
     largest are left out.
     """
-    inside = [_without_specks(_cut(window, width=width, height=height)) for window in windows]
+    inside = [without_specks(cut(window, width=width, height=height)) for window in windows]
     first, second = np.zeros((2, height, width), np.float32)
     owner = np.full((height, width), -1, np.int32)
     for nth, (window, score) in enumerate(zip(inside, scores, strict=True)):
@@ -66,7 +66,7 @@ def resolve_overlaps(
     return resolved
 
 
-def _without_specks(window: Window) -> Window:
+def without_specks(window: Window) -> Window:
     """The same with negated logits in parts that are too small beside the largest."""
     held = (window.logits > 0).astype(np.uint8)
     if not held.any():
@@ -101,7 +101,8 @@ def _slices_of(window: Window) -> tuple[slice, slice]:
     return slice(window.y, window.y + height), slice(window.x, window.x + width)
 
 
-def _cut(window: Window, *, width: int, height: int) -> Window:
+def cut(window: Window, *, width: int, height: int) -> Window:
+    """What of a window lies in a photo of this size."""
     left, top = min(max(0, -window.x), window.logits.shape[1]), min(max(0, -window.y), window.logits.shape[0])
     right, bottom = max(left, width - window.x), max(top, height - window.y)
     return Window(

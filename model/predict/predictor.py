@@ -1,8 +1,8 @@
-"""From photos to the caps in them: one forward pass a photo, then as many readings as are wanted."""
+"""From photos to the caps in them: one forward pass a look, then as many readings as are wanted."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,21 +10,22 @@ import torch
 from msgspec import Struct, field, structs
 from numpy.typing import NDArray
 
-from fairyring.model.geometry.raster import Rle, iou_matrix, rle_of_outline
+from fairyring.model.geometry.raster import Rle, rle_of_outline
 from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.decode import DecodeConfig, Instances, decode
 from fairyring.model.network.fold import fold_batch_norms
 from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
 from fairyring.model.network.refine import refine
+from fairyring.model.photo import Pixels
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
-from fairyring.model.predict.overlaps import Window, distinct, resolve_overlaps
+from fairyring.model.predict.looks import ONE_LOOK, Look, resized
+from fairyring.model.predict.overlaps import Window, distinct
+from fairyring.model.predict.pooling import Piece, pooled
 from fairyring.model.predict.tiles import Tile, tiles_of
 
-SLACK = 8.0
-"""By how many pixels two pieces may differ about the middle of a cap at their seam."""
-SAME = 0.5
-"""Least IoU of two pieces' detections of the same cap."""
+ABOUT = 1.4
+"""A cap's diameter may change by so much when its mask is refined."""
 
 
 class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -34,9 +35,10 @@ class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     least_score: float = 0.0
     """Least calibrated score of a detection that is returned."""
     finest: int = 2
-    """Photo pixels a side of the finest points that PointRend decides on: 1, 2, 4 …"""
+    """Pixels a side, of what is looked at, of the finest points that PointRend decides on: 1, 2, 4 …"""
     batch: int = 1
     """How many pieces of one size go through the network together."""
+    looks: tuple[Look, ...] = ONE_LOOK
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,23 +54,26 @@ class Detection:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Glimpse:
+    """A piece of a look, and the network's outputs for it."""
+
+    look: Look
+    tile: Tile
+    outputs: Outputs
+    """For the batch that the piece was in."""
+    index: int
+    """Of the piece in that batch."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Seen:
     """A photo that went through the network."""
 
     width: int
     height: int
-    pieces: list[tuple[Tile, Outputs, int]]
-    """Each piece of the photo, the network's outputs for its batch, and the piece's index in that batch."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Piece:
-    """The instances of a piece of a photo, refined to photo pixels."""
-
-    tile: Tile
-    scores: list[float]
-    """Raw scores, in falling order."""
-    windows: list[Window]
+    scaled: tuple[int, int]
+    """Width and height of the scaled photo."""
+    glimpses: list[Glimpse]
 
 
 class Predictor:
@@ -84,28 +89,46 @@ class Predictor:
         self.settings = settings or PredictConfig()
         self.calibration = Calibration(*network.calibration.tolist())
 
+    def detect(self, photo: Pixels, *, scale: float = 1.0) -> list[Detection]:
+        """``see`` and ``read`` of one photo."""
+        return self.read(self.see(photo, scale=scale))
+
+    def see(self, photo: Pixels, *, scale: float = 1.0, seen: Sequence[Glimpse] = ()) -> Seen:
+        """Runs the network on a photo (height, width, 3) uint8 RGB, brought to a scale; for ``read``.
+
+        ``seen``: what a look at the photo at this scale, not enlarged, gave already.
+        """
+        scaled = resized(photo, scale)
+        glimpses: list[Glimpse] = []
+        for look in self.settings.looks:
+            again = seen if seen and look.enlarged == 1 else self.look(scaled, look)
+            glimpses += [replace(glimpse, look=look) for glimpse in again]
+        return Seen(
+            width=photo.shape[1],
+            height=photo.shape[0],
+            scaled=(scaled.shape[1], scaled.shape[0]),
+            glimpses=glimpses,
+        )
+
     @torch.inference_mode()
-    def see(self, photos: Sequence[NDArray[np.uint8]]) -> list[Seen]:
-        """Runs the network on photos (height, width, 3) uint8 RGB; its outputs for each are for ``read``."""
-        seen = [Seen(width=photo.shape[1], height=photo.shape[0], pieces=[]) for photo in photos]
-        by_shape: dict[tuple[int, int], list[tuple[int, Tile]]] = {}
-        for nth, photo in enumerate(photos):
-            for tile in tiles_of(photo.shape[1], photo.shape[0]):
-                by_shape.setdefault(self._padded(tile), []).append((nth, tile))
-        for shape, jobs in by_shape.items():
-            for first in range(0, len(jobs), self.settings.batch):
-                batch = jobs[first : first + self.settings.batch]
-                inputs = np.zeros((len(batch), *shape, 3), np.uint8)
-                for index, (nth, tile) in enumerate(batch):
-                    inputs[index, : tile.height, : tile.width] = photos[nth][
-                        tile.y : tile.y + tile.height, tile.x : tile.x + tile.width
-                    ]
-                origins = torch.tensor([(-tile.width / 2, -tile.height / 2) for _, tile in batch])
-                pixels = torch.from_numpy(inputs).to(self.device).permute(0, 3, 1, 2)
-                outputs = self.network(pixels, origins.to(self.device))
-                for index, (nth, tile) in enumerate(batch):
-                    seen[nth].pieces.append((tile, outputs, index))
-        return seen
+    def look(self, scaled: Pixels, look: Look) -> list[Glimpse]:
+        """Runs the network on one look at a scaled photo (height, width, 3) uint8 RGB."""
+        glimpses = []
+        photo = resized(scaled, look.enlarged)
+        tiles = tiles_of(photo.shape[1], photo.shape[0])
+        for first in range(0, len(tiles), self.settings.batch):
+            batch = tiles[first : first + self.settings.batch]
+            inputs = np.zeros((len(batch), *self._padded(batch[0]), 3), np.uint8)
+            for index, tile in enumerate(batch):
+                inputs[index, : tile.height, : tile.width] = photo[
+                    tile.y : tile.y + tile.height, tile.x : tile.x + tile.width
+                ]
+            origins = torch.tensor([(-tile.width / 2, -tile.height / 2) for tile in batch])
+            pixels = torch.from_numpy(inputs).to(self.device).permute(0, 3, 1, 2)
+            outputs = self.network(pixels, origins.to(self.device))
+            for index, tile in enumerate(batch):
+                glimpses.append(Glimpse(look=look, tile=tile, outputs=outputs, index=index))
+        return glimpses
 
     def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
         """The caps of a photo, in falling order of score."""
@@ -119,69 +142,64 @@ class Predictor:
         settings = structs.replace(settings, least_score=least)
         config = self.network.config
         pieces = []
-        for tile, outputs, index in seen.pieces:
-            instances = _distinct(decode(outputs, index, config, settings))
+        for glimpse in seen.glimpses:
+            instances = self.instances(glimpse, settings)
+            instances = _of_size(instances, glimpse.look, stride=config.mask_stride)
             refined = refine(
                 self.network.point_head,
-                outputs.point_maps,
+                glimpse.outputs.point_maps,
                 instances,
-                image=index,
+                image=glimpse.index,
                 mask_stride=config.mask_stride,
                 finest=self.settings.finest,
             )
             windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in refined]
-            pieces.append(Piece(tile=tile, scores=instances.scores.tolist(), windows=windows))
+            scores = instances.scores.tolist()
+            pieces.append(Piece(look=glimpse.look, tile=glimpse.tile, scores=scores, windows=windows))
         return pieces
 
-    def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
-        """Resolves overlaps and traces outlines; the second half of ``read``."""
-        found = [
-            (detection, nth)
-            for nth, piece in enumerate(pieces)
-            for detection in _outlined(piece, width=seen.width, height=seen.height)
-        ]
-        found.sort(key=lambda one: -one[0].score)
-        kept = _without_repeats(found) if len(pieces) > 1 else [detection for detection, _ in found]
-        scores = calibrated(np.array([detection.score for detection in kept]), self.calibration)
-        return [replace(one, score=score) for one, score in zip(kept, scores.tolist(), strict=True)]
+    @torch.inference_mode()
+    def instances(self, glimpse: Glimpse, settings: DecodeConfig) -> Instances:
+        """The instances of a piece of a look without duplicates, not refined yet."""
+        found = decode(glimpse.outputs, glimpse.index, self.network.config, settings)
+        return _chosen(found, distinct((found.logits > 0).cpu().numpy(), found.scores.tolist()))
 
-    def detect(self, photo: NDArray[np.uint8]) -> list[Detection]:
-        """``see`` and ``read`` of one photo."""
-        return self.read(self.see([photo])[0])
+    def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
+        """Pools the pieces and traces outlines; the second half of ``read``."""
+        width, height = seen.scaled
+        photo_pixels = np.array([seen.width / width, seen.height / height])
+        found = [
+            (score, _scaled(outline, photo_pixels))
+            for score, window in pooled(pieces, width=width, height=height)
+            if (outline := outline_of_logits(window.logits, corner=(window.x, window.y)))
+        ]
+        scores = calibrated(np.array([score for score, _ in found]), self.calibration)
+        return [
+            Detection(
+                score=score,
+                outline=outline,
+                rle=rle_of_outline(outline, height=seen.height, width=seen.width),
+            )
+            for score, (_, outline) in zip(scores.tolist(), found, strict=True)
+        ]
 
     def _padded(self, tile: Tile) -> tuple[int, int]:
         multiple = self.network.config.multiple
         return -(-tile.height // multiple) * multiple, -(-tile.width // multiple) * multiple
 
 
-def _outlined(piece: Piece, *, width: int, height: int) -> Iterator[Detection]:
-    """The detections of a piece of a photo of this size, with raw scores."""
-    tile = piece.tile
-    resolved = resolve_overlaps(piece.windows, piece.scores, width=tile.width, height=tile.height)
-    for score, window in zip(piece.scores, resolved, strict=True):
-        outline = outline_of_logits(window.logits, corner=(window.x + tile.x, window.y + tile.y))
-        if not outline:
-            continue
-        points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
-        if tile.owns(*((points.min(axis=0) + points.max(axis=0)) / 2).tolist(), slack=SLACK):
-            rle = rle_of_outline(outline, height=height, width=width)
-            yield Detection(score=score, outline=outline, rle=rle)
+def _of_size(instances: Instances, look: Look, *, stride: int) -> Instances:
+    """The instances that may be of the sizes that a look is for; the others need not be refined."""
+    pixels = ((instances.logits > 0).sum((1, 2)) * stride**2).tolist()
+    return _chosen(instances, [nth for nth, count in enumerate(pixels) if look.takes(count, slack=ABOUT)])
 
 
-def _distinct(instances: Instances) -> Instances:
-    """The instances without duplicates, which need not be refined."""
-    kept = distinct((instances.logits > 0).cpu().numpy(), instances.scores.tolist())
+def _chosen(instances: Instances, kept: Sequence[int]) -> Instances:
     chosen = torch.tensor(kept, dtype=torch.int64, device=instances.scores.device)
     return Instances(*(part[chosen] for part in instances))
 
 
-def _without_repeats(found: list[tuple[Detection, int]]) -> list[Detection]:
-    """Drops detections that another piece has with a better score; given with their piece, scores falling."""
-    rles = [detection.rle for detection, _ in found]
-    overlaps, pieces = iou_matrix(rles, rles), np.array([piece for _, piece in found])
-    kept: list[int] = []
-    for nth in range(len(found)):
-        repeats = (overlaps[nth, kept] >= SAME) & (pieces[kept] != pieces[nth])
-        if not repeats.any():
-            kept.append(nth)
-    return [found[nth][0] for nth in kept]
+def _scaled(outline: Outline, by: NDArray[np.float64]) -> Outline:
+    if (by == 1).all():
+        return outline
+    return [(np.reshape(part, (-1, 2)) * by).ravel().tolist() for part in outline]

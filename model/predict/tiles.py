@@ -6,14 +6,15 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-SIDE = 1280
-"""Largest width and height of a piece, photo pixels: as wide as the photos the network is made for."""
+LONGEST, SHORTEST = 1280, 768
+"""Largest sides of a piece, pixels, along the photo's longer and shorter side. The network counts coordinates
+from a piece's middle and was taught on photos of 1280 × 720: farther out it is lost."""
 OVERLAP = 256
-"""How far two pieces overlap, photo pixels; caps up to this diameter are never cut."""
+"""How far two pieces overlap, pixels; caps up to this diameter are never cut."""
 
 
 class Tile(Struct, frozen=True, kw_only=True):
-    """One piece, and the part of it whose caps are taken from it, in photo coordinates."""
+    """One piece, and the part of it whose caps are taken from it, in the photo's pixels."""
 
     x: int
     y: int
@@ -30,19 +31,20 @@ class Tile(Struct, frozen=True, kw_only=True):
 
 def tiles_of(width: int, height: int) -> list[Tile]:
     """The pieces of a photo, one where it is no larger than a piece."""
+    across, down = (LONGEST, SHORTEST) if width >= height else (SHORTEST, LONGEST)
     return [
         Tile(x=x, y=y, width=w, height=h, own=(left, top, right, bottom))
-        for y, h, top, bottom in _spans(height)
-        for x, w, left, right in _spans(width)
+        for y, h, top, bottom in _spans(height, down)
+        for x, w, left, right in _spans(width, across)
     ]
 
 
-def _spans(extent: int) -> list[tuple[int, int, float, float]]:
+def _spans(extent: int, longest: int) -> list[tuple[int, int, float, float]]:
     """First pixel, length, and the ends of the own part, of the pieces along one axis."""
-    if extent <= SIDE:
+    if extent <= longest:
         return [(0, extent, float("-inf"), float("inf"))]
-    count = -(-(extent - OVERLAP) // (SIDE - OVERLAP))
-    firsts = [round(nth * (extent - SIDE) / (count - 1)) for nth in range(count)]
-    seams = [(a + SIDE + b) / 2 for a, b in pairwise(firsts)]
+    count = -(-(extent - OVERLAP) // (longest - OVERLAP))
+    firsts = [round(nth * (extent - longest) / (count - 1)) for nth in range(count)]
+    seams = [(a + longest + b) / 2 for a, b in pairwise(firsts)]
     edges = [float("-inf"), *seams, float("inf")]
-    return [(first, SIDE, edges[nth], edges[nth + 1]) for nth, first in enumerate(firsts)]
+    return [(first, longest, edges[nth], edges[nth + 1]) for nth, first in enumerate(firsts)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,8 @@ from fairyring.model.coco.document import document_of
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict.predictor import Predictor
+from fairyring.model.photo import Pixels
+from fairyring.model.predict.predictor import Detection, Predictor
 from fairyring.model.predict.shipped import RECIPE
 from fairyring.model.progress import Progress
 from fairyring.model.train.data import Example
@@ -81,11 +83,15 @@ def ablation_rows(
             _train(name, recipe, examples, out, device=device, progress=progress)
         predictor = Predictor(load_weights(out / FINAL).network, device=device)
         for window in WINDOWS:
-            settings = DecodeConfig(window=window)
-            predicted = predicted_document(predictor, test, settings=settings, progress=progress)
+            detect = partial(_read, predictor, settings=DecodeConfig(window=window))
+            predicted = predicted_document(detect, test, progress=progress)
             figures = evaluate_masks(document_of(predicted), document_of(test.document))
             rows.append(mask_row(name, figures) | {"window": window})
     return rows
+
+
+def _read(predictor: Predictor, photo: Pixels, *, settings: DecodeConfig) -> list[Detection]:
+    return predictor.read(predictor.see(photo), settings)
 
 
 def _train(

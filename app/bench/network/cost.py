@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.contour.reconstruct import reconstruct
 from fairyring.model.predict.predictor import Detection, Predictor
+from fairyring.model.predict.scale import see_at_its_scale
 from fairyring.storage.images import find_image
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
@@ -30,11 +31,11 @@ def cost_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, An
     _, photo = next(photos.images())
     device = predictor.device
     reference = timed(lambda: _backbone_alone(predictor, photo), device)
-    (seen,) = predictor.see([photo])
+    seen = see_at_its_scale(predictor, photo)
     pieces = predictor.refine(seen)
     found = predictor.tell(seen, pieces)
     times = {
-        "network: features, heads": timed(lambda: predictor.see([photo]), device),
+        "network: features, heads": timed(lambda: see_at_its_scale(predictor, photo), device),
         "instances and their edges": timed(lambda: predictor.refine(seen), device),
         "outlines, and whose pixel it is": timed(lambda: predictor.tell(seen, pieces), device),
         "whole outlines and centres": timed(lambda: _centres(found, photo), device),

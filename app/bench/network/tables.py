@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from fairyring.app.bench.network.sets import LabelledPhotos
@@ -9,8 +10,8 @@ from fairyring.model.coco.document import document_of
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centres import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
-from fairyring.model.network.decode import DecodeConfig
-from fairyring.model.predict.predictor import Predictor
+from fairyring.model.photo import Pixels
+from fairyring.model.predict.predictor import Detection
 from fairyring.model.progress import Progress, silent
 
 CERTAIN = 0.5
@@ -25,17 +26,16 @@ MASK_FIGURES = ("AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict"
 
 
 def predicted_document(
-    predictor: Predictor,
+    detect: Callable[[Pixels], list[Detection]],
     photos: LabelledPhotos,
     *,
-    settings: DecodeConfig | None = None,
     progress: Progress = silent,
 ) -> dict[str, Any]:
-    """The network's predictions for the photos, as a COCO document with scores."""
+    """What is detected in the photos, (height, width, 3) RGB each, as a COCO document with scores."""
     annotations: list[dict[str, Any]] = []
     for done, (entry, pixels) in enumerate(photos.images()):
         progress(done, len(photos.photos), f"predicting {entry['file_name']}")
-        for detection in predictor.read(predictor.see([pixels])[0], settings):
+        for detection in detect(pixels):
             annotations.append(
                 {
                     "id": len(annotations) + 1,

@@ -21,7 +21,7 @@ LEAST_AP, LEAST_S50 = 0.75, 0.85
 def test_shipped_weights_see_most_caps_of_fresh_beds(tmp_path: Path) -> None:
     beds = rendered("paper", tmp_path, count=3, progress=silent)
     predictor = Predictor(load_weights(SHIPPED).network, device=torch.device("cpu"))
-    predicted = document_of(predicted_document(predictor, beds))
+    predicted = document_of(predicted_document(predictor.detect, beds))
     figures = evaluate_masks(predicted, document_of(beds.document))
     assert figures["AP"] >= LEAST_AP
     assert figures["S50"] >= LEAST_S50

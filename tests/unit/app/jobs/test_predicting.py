@@ -251,14 +251,14 @@ def test_a_button_predicts_every_image_until_it_is_cancelled(
     serve: Callable[..., int], project: Project, ids: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_weights(project.folder / "weights" / "own.safetensors")
-    detect = Predictor.detect
+    read = Predictor.read
 
-    def slowly(self: Predictor, photo: Any) -> Any:
+    def slowly(self: Predictor, seen: Any) -> Any:
         # Progress is drawn twice a second, and such small photos would be done before.
         time.sleep(1.5)
-        return detect(self, photo)
+        return read(self, seen)
 
-    monkeypatch.setattr(Predictor, "detect", slowly)
+    monkeypatch.setattr(Predictor, "read", slowly)
     with Tab(serve(), image=ids[2]) as tab:
         tab.expect(Show)
         tab.panel.set("Predict every image", True)

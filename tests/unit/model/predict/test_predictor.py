@@ -10,14 +10,15 @@ import torch
 from numpy.typing import NDArray
 from pycocotools import mask as pycocotools_mask
 
-from fairyring.model.geometry.raster import iou_matrix, rle_of_outline
+from fairyring.model.geometry.raster import iou_matrix
 from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.network.decode import DecodeConfig, Instances
 from fairyring.model.network.refine import RefinedMask
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
-from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor, _without_repeats  # pyright: ignore
+from fairyring.model.predict.looks import Look, resized
+from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
 from fairyring.model.train.data import read_rgb
 from tests.support.discs import DISCS, SIDE, photo_of
 from tests.support.small_networks import tiny
@@ -83,17 +84,8 @@ def same(first: list[Detection], second: list[Detection]) -> bool:
     return all(abs(a.score - b.score) < 1e-3 and math.dist(middle(a), middle(b)) < 0.05 for a, b in pairs)
 
 
-def test_photos_seen_together_are_read_as_if_seen_alone(predictor: Predictor, learnt: Learnt) -> None:
-    photos = [read_rgb(example.path) for example in learnt.examples]
-    photos.insert(1, photos[0][:96, :64])
-    alone = [predictor.detect(photo) for photo in photos]
-    batched = Predictor(predictor.network, device=CPU, settings=PredictConfig(batch=4))
-    for one, seen in zip(alone, batched.see(photos), strict=True):
-        assert same(one, batched.read(seen))
-
-
 def test_what_was_seen_is_read_with_other_settings(predictor: Predictor, learnt: Learnt) -> None:
-    (seen,) = predictor.see([read_rgb(learnt.examples[0].path)])
+    seen = predictor.see(read_rgb(learnt.examples[0].path))
     assert len(predictor.read(seen, DecodeConfig(most=2))) == 2
 
 
@@ -114,7 +106,8 @@ def test_scores_are_calibrated_and_those_too_low_are_not_told(learnt: Learnt) ->
 
 @pytest.fixture
 def small_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tiles, "SIDE", SIDE)
+    monkeypatch.setattr(tiles, "LONGEST", SIDE)
+    monkeypatch.setattr(tiles, "SHORTEST", SIDE)
     monkeypatch.setattr(tiles, "OVERLAP", 64)
 
 
@@ -157,7 +150,39 @@ def test_a_cap_whose_middle_is_on_the_seam_is_neither_lost_nor_told_twice(
     assert middle(cap) == pytest.approx((96, 64), abs=0.5)
 
 
-def test_caps_of_one_piece_that_overlap_are_both_told() -> None:
-    outline = [[10.0, 10.0, 50.0, 10.0, 50.0, 50.0]]
-    cap = Detection(score=0.9, outline=outline, rle=rle_of_outline(outline, height=SIDE, width=SIDE))
-    assert _without_repeats([(cap, 0), (cap, 0), (cap, 1)]) == [cap, cap]
+@pytest.mark.usefixtures("small_tiles")
+def test_pieces_seen_together_are_read_as_if_seen_one_by_one(predictor: Predictor) -> None:
+    photo, discs = quilt()
+    batched = Predictor(predictor.network, device=CPU, settings=PredictConfig(batch=4))
+    alone = predictor.detect(photo)
+    assert len(sure(alone)) == len(discs)
+    assert same(alone, batched.detect(photo))
+
+
+def test_a_photo_at_another_scale_gives_the_same_caps_in_its_own_pixels(
+    predictor: Predictor, learnt: Learnt
+) -> None:
+    photo = read_rgb(learnt.examples[0].path)
+    large = resized(photo, 3.0)
+    found = sure(predictor.detect(large, scale=1 / 3))
+    assert {tuple(one.rle["size"]) for one in found} == {(3 * SIDE, 3 * SIDE)}
+    for before, after in zip(sure(predictor.detect(photo)), found, strict=True):
+        assert np.divide(middle(after), 3) == pytest.approx(middle(before), abs=0.3)
+        assert area_of_outline(after.outline) / 9 == pytest.approx(area_of_outline(before.outline), rel=0.03)
+
+
+def test_what_one_look_saw_is_not_looked_at_again(predictor: Predictor, learnt: Learnt) -> None:
+    photo = read_rgb(learnt.examples[0].path)
+    glimpses = predictor.look(photo, Look())
+    seen = predictor.see(photo, seen=glimpses)
+    assert [glimpse.outputs for glimpse in seen.glimpses] == [glimpse.outputs for glimpse in glimpses]
+    assert same(predictor.read(seen), predictor.detect(photo))
+
+
+def test_caps_are_taken_from_the_look_that_is_for_their_size(predictor: Predictor, learnt: Learnt) -> None:
+    """The discs are 25, 34, 44 and 50 pixels wide."""
+    photo = read_rgb(learnt.examples[0].path)
+    for look, expected in ((Look(most=39), [25, 34]), (Look(least=39), [44, 50])):
+        chosen = Predictor(predictor.network, device=CPU, settings=PredictConfig(looks=(look,)))
+        found = [2 * (area_of_outline(one.outline) / math.pi) ** 0.5 for one in sure(chosen.detect(photo))]
+        assert sorted(found) == pytest.approx(expected, abs=2)

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fairyring.model.predict.tiles import OVERLAP, SIDE, tiles_of
+from fairyring.model.predict.tiles import LONGEST, OVERLAP, SHORTEST, tiles_of
 
 extents = st.integers(1, 9000)
 
@@ -31,7 +31,8 @@ def test_seams_belong_to_one_tile(width: int, height: int) -> None:
 @given(extents, extents)
 def test_tiles_lie_in_the_photo_and_are_of_one_size(width: int, height: int) -> None:
     tiles = tiles_of(width, height)
-    assert {(tile.width, tile.height) for tile in tiles} == {(min(width, SIDE), min(height, SIDE))}
+    across, down = (LONGEST, SHORTEST) if width >= height else (SHORTEST, LONGEST)
+    assert {(tile.width, tile.height) for tile in tiles} == {(min(width, across), min(height, down))}
     for tile in tiles:
         assert 0 <= tile.x <= width - tile.width
         assert 0 <= tile.y <= height - tile.height
@@ -58,7 +59,8 @@ def test_a_small_photo_is_one_piece() -> None:
 
 
 def test_a_photo_of_the_usual_size_is_one_piece_and_one_twice_as_wide_three() -> None:
-    assert len(tiles_of(1280, 720)) == 1
+    assert len(tiles_of(1280, 720)) == len(tiles_of(720, 1280)) == 1
+    assert len(tiles_of(1920, 1080)) == len(tiles_of(1080, 1920)) == 4
     left, middle, right = tiles_of(2560, 720)
     assert (left.x, left.y, left.width, left.height) == (0, 0, 1280, 720)
     assert (middle.x, right.x) == (640, 1280)
@@ -66,16 +68,16 @@ def test_a_photo_of_the_usual_size_is_one_piece_and_one_twice_as_wide_three() ->
 
 
 def test_no_more_tiles_than_needed() -> None:
-    assert len(tiles_of(SIDE + 1, 100)) == 2
-    assert len(tiles_of(2 * SIDE - OVERLAP, 100)) == 2
-    assert len(tiles_of(2 * SIDE - OVERLAP + 1, 100)) == 3
-    assert [tile.own for tile in tiles_of(2 * SIDE - OVERLAP, 100)] == [
+    assert len(tiles_of(LONGEST + 1, 100)) == 2
+    assert len(tiles_of(2 * LONGEST - OVERLAP, 100)) == 2
+    assert len(tiles_of(2 * LONGEST - OVERLAP + 1, 100)) == 3
+    assert [tile.own for tile in tiles_of(2 * LONGEST - OVERLAP, 100)] == [
         (float("-inf"), float("-inf"), 1152.0, float("inf")),
         (1152.0, float("-inf"), float("inf"), float("inf")),
     ]
 
 
 def test_slack_widens_what_is_owned_on_every_side() -> None:
-    left, right = tiles_of(2 * SIDE - OVERLAP, 100)
+    left, right = tiles_of(2 * LONGEST - OVERLAP, 100)
     assert [left.owns(x, 50, slack=8.0) for x in (1100, 1159.9, 1160)] == [True, True, False]
     assert [right.owns(x, 50, slack=8.0) for x in (1143.9, 1144, 2200)] == [False, True, True]

@@ -1,0 +1,93 @@
+"""What was seen in all pieces of a photo, in one: each cap once, each pixel one cap's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairyring.model.predict.looks import Look, shrunk
+from fairyring.model.predict.overlaps import (
+    CONFIDENT,
+    MOST_TAKEN,
+    Window,
+    cut,
+    resolve_overlaps,
+    without_specks,
+)
+from fairyring.model.predict.tiles import Tile
+
+SLACK = 8.0
+"""By how many pixels two pieces may differ about the middle of a cap at their seam."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Piece:
+    """The instances of a piece of a photo, refined to the pixels of the look it belongs to."""
+
+    look: Look
+    tile: Tile
+    scores: list[float]
+    """Raw scores, in falling order."""
+    windows: list[Window]
+    """Their first pixels count from the tile's."""
+
+
+def pooled(pieces: Sequence[Piece], *, width: int, height: int) -> list[tuple[float, Window]]:
+    """Raw scores, falling, and windows of a scaled photo of this size with overlaps resolved."""
+    found = [
+        (score, window, nth)
+        for nth, piece in enumerate(pieces)
+        for score, window in _taken(piece, width=width, height=height)
+    ]
+    found.sort(key=lambda one: -one[0])
+    kept = found if len(pieces) == 1 else list(_without_repeats(found))
+    scores = [score for score, _, _ in kept]
+    windows = resolve_overlaps([window for _, window, _ in kept], scores, width=width, height=height)
+    return list(zip(scores, windows, strict=True))
+
+
+def _taken(piece: Piece, *, width: int, height: int) -> Iterator[tuple[float, Window]]:
+    """What is taken from a piece: caps of the sizes its look is for, in the part that is the tile's own."""
+    tile, enlarged = piece.tile, piece.look.enlarged
+    for score, window in zip(piece.scores, piece.windows, strict=True):
+        moved = Window(x=window.x + tile.x, y=window.y + tile.y, logits=window.logits)
+        seen = without_specks(cut(moved, width=round(width * enlarged), height=round(height * enlarged)))
+        rows, columns = np.nonzero(seen.logits > 0)
+        if not len(rows) or not piece.look.takes(len(rows)):
+            continue
+        middle = (
+            seen.x + (columns.min() + columns.max() + 1) / 2,
+            seen.y + (rows.min() + rows.max() + 1) / 2,
+        )
+        if tile.owns(*middle, slack=SLACK):
+            yield score, cut(shrunk(seen, enlarged=enlarged), width=width, height=height)
+
+
+def _without_repeats(found: Iterable[tuple[float, Window, int]]) -> Iterator[tuple[float, Window, int]]:
+    """Without what lies for the most part on better and confident caps of other pieces; scores must fall."""
+    better: list[tuple[Window, int]] = []
+    for score, window, piece in found:
+        held = window.logits > 0
+        others = np.zeros(held.shape, bool)
+        for other, of_piece in better:
+            if of_piece != piece:
+                _mark_common(others, window, other)
+        if np.count_nonzero(held & others) > MOST_TAKEN * np.count_nonzero(held):
+            continue
+        yield score, window, piece
+        if score >= CONFIDENT:
+            better.append((window, piece))
+
+
+def _mark_common(marked: NDArray[np.bool_], window: Window, other: Window) -> None:
+    """Marks, of a window's pixels (h, w), those that another one holds."""
+    height, width = marked.shape
+    left, top = max(window.x, other.x), max(window.y, other.y)
+    right = min(window.x + width, other.x + other.logits.shape[1])
+    bottom = min(window.y + height, other.y + other.logits.shape[0])
+    if left < right and top < bottom:
+        theirs = other.logits[top - other.y : bottom - other.y, left - other.x : right - other.x]
+        marked[top - window.y : bottom - window.y, left - window.x : right - window.x] |= theirs > 0
