@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.network import Device, Fast, OnDevice, looks_of
+from fairyring.app.commands.network import Device, Fast, OnDevice, passes_of
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson, print_rows
 
@@ -105,7 +105,7 @@ def cost(
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
-    predictor = network_of(weights or SHIPPED, device=device, looks=looks_of(fast=fast)).predictor
+    predictor = network_of(weights or SHIPPED, device=device, passes=passes_of(fast=fast)).predictor
     with _folder(beds) as folder, shown_on_stderr() as progress:
         photos = rendered("paper", folder, count=1, progress=progress)
         rows = cost_rows(predictor, photos)
@@ -187,7 +187,7 @@ def _detecting(weights: Path | None, device: str, *, fast: bool) -> Callable[[Pi
     from fairyring.model.predict.scale import detect_at_its_scale
     from fairyring.model.predict.shipped import SHIPPED
 
-    network, settings = load_weights(weights or SHIPPED).network, PredictConfig(looks=looks_of(fast=fast))
+    network, settings = load_weights(weights or SHIPPED).network, PredictConfig(passes=passes_of(fast=fast))
     return partial(detect_at_its_scale, Predictor(network, device=device_of(device), settings=settings))
 
 

@@ -18,7 +18,7 @@ from fairyring.app.commands.stopping import INTERRUPTED, stopped_by_sigterm
 from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
-    from fairyring.model.predict.looks import Look
+    from fairyring.model.predict.passes import Pass
     from fairyring.storage.project import Project
 
 
@@ -32,7 +32,7 @@ class Device(StrEnum):
 
 LABELS_HELP = "A project's folder, or COCO files, each with its photos beside it or in images/."
 Fast = Annotated[
-    bool, typer.Option(help="Look at each photo once, not twice: quicker, and more small caps are missed.")
+    bool, typer.Option(help="One pass over each photo, not two: quicker, and more small caps are missed.")
 ]
 OnDevice = Annotated[Device, typer.Option(help="auto takes a GPU where there is one.")]
 
@@ -166,7 +166,7 @@ def predict(
             weights or require_weights(project),
             device=device,
             least_score=least_score,
-            looks=looks_of(fast=fast),
+            passes=passes_of(fast=fast),
             diameter=diameter,
         )
         stored: list[int] = []
@@ -187,11 +187,11 @@ def predict(
         typer.echo(f"{network.name}: {outcome}", err=True)
 
 
-def looks_of(*, fast: bool) -> tuple[Look, ...]:
-    """One look at each photo, or two."""
-    from fairyring.model.predict.looks import ONE_LOOK, TWO_LOOKS
+def passes_of(*, fast: bool) -> tuple[Pass, ...]:
+    """One pass over each photo, or two."""
+    from fairyring.model.predict.passes import ONE_PASS, TWO_PASSES
 
-    return ONE_LOOK if fast else TWO_LOOKS
+    return ONE_PASS if fast else TWO_PASSES
 
 
 def _images_called(project: Project, pattern: str) -> list[int]:

@@ -23,7 +23,7 @@ from fairyring.model.geometry.outline_checks import usable_outline
 from fairyring.model.geometry.shapes import Fit, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict.looks import TWO_LOOKS, Look
+from fairyring.model.predict.passes import TWO_PASSES, Pass
 from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.predict.scale import detect_at_its_scale
 from fairyring.model.progress import Progress, silent
@@ -79,12 +79,12 @@ def network_of(
     *,
     device: str = "auto",
     least_score: float = LEAST_SCORE,
-    looks: tuple[Look, ...] = TWO_LOOKS,
+    passes: tuple[Pass, ...] = TWO_PASSES,
     diameter: float | None = None,
 ) -> Network:
     """Reads weights; those read last are kept ready. Raises WeightsError, DeviceError."""
     changed = weights.stat().st_mtime_ns if weights.exists() else 0
-    network = _network_of(weights, changed, device, least_score, looks)
+    network = _network_of(weights, changed, device, least_score, passes)
     if diameter is None:
         return network
     return replace(network, diameter=diameter, settings=network.settings | {"diameter": diameter})
@@ -92,11 +92,11 @@ def network_of(
 
 @lru_cache(maxsize=1)
 def _network_of(
-    weights: Path, _changed: int, device: str, least_score: float, looks: tuple[Look, ...]
+    weights: Path, _changed: int, device: str, least_score: float, passes: tuple[Pass, ...]
 ) -> Network:
     on = device_of(device)
     loaded = load_weights(weights)
-    config, settings = loaded.network.config, PredictConfig(least_score=least_score, looks=looks)
+    config, settings = loaded.network.config, PredictConfig(least_score=least_score, passes=passes)
     predictor = Predictor(loaded.network, device=on, settings=settings)
     return Network(
         predictor=predictor,
@@ -107,7 +107,7 @@ def _network_of(
             "decode": msgspec.to_builtins(settings.decode),
             "finest": settings.finest,
             "least_score": least_score,
-            "looks": [msgspec.to_builtins(look) for look in looks],
+            "passes": [msgspec.to_builtins(each) for each in passes],
         },
         diameter=None,
     )

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.predict.looks import Look, shrunk
 from fairyring.model.predict.overlaps import (
     CONFIDENT,
     MOST_TAKEN,
@@ -17,6 +16,7 @@ from fairyring.model.predict.overlaps import (
     resolve_overlaps,
     without_specks,
 )
+from fairyring.model.predict.passes import Pass, shrunk
 from fairyring.model.predict.tiles import Tile
 
 SLACK = 8.0
@@ -25,9 +25,9 @@ SLACK = 8.0
 
 @dataclass(frozen=True, kw_only=True)
 class Piece:
-    """The instances of a piece of a photo, refined to the pixels of the look it belongs to."""
+    """The instances of a piece of a photo, refined to the pixels of the pass it was seen in."""
 
-    look: Look
+    seen_in: Pass
     tile: Tile
     scores: list[float]
     """Raw scores, in falling order."""
@@ -50,13 +50,13 @@ def pooled(pieces: Sequence[Piece], *, width: int, height: int) -> list[tuple[fl
 
 
 def _taken(piece: Piece, *, width: int, height: int) -> Iterator[tuple[float, Window]]:
-    """What is taken from a piece: caps of the sizes its look is for, in the part that is the tile's own."""
-    tile, enlarged = piece.tile, piece.look.enlarged
+    """What is taken from a piece: caps of the sizes its pass is for, in the part that is the tile's own."""
+    tile, enlarged = piece.tile, piece.seen_in.enlarged
     for score, window in zip(piece.scores, piece.windows, strict=True):
         moved = Window(x=window.x + tile.x, y=window.y + tile.y, logits=window.logits)
         seen = without_specks(cut(moved, width=round(width * enlarged), height=round(height * enlarged)))
         rows, columns = np.nonzero(seen.logits > 0)
-        if not len(rows) or not piece.look.takes(len(rows)):
+        if not len(rows) or not piece.seen_in.takes(len(rows)):
             continue
         middle = (
             seen.x + (columns.min() + columns.max() + 1) / 2,

@@ -1,4 +1,4 @@
-"""From photos to the caps in them: one forward pass a look, then as many readings as are wanted."""
+"""From photos to the caps in them: some passes, then as many readings as are wanted."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from fairyring.model.network.refine import refine
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
-from fairyring.model.predict.looks import ONE_LOOK, Look, resized
 from fairyring.model.predict.overlaps import Window, distinct
+from fairyring.model.predict.passes import ONE_PASS, Pass, resized
 from fairyring.model.predict.pooling import Piece, pooled
 from fairyring.model.predict.tiles import Tile, tiles_of
 
@@ -35,10 +35,10 @@ class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     least_score: float = 0.0
     """Least calibrated score of a detection that is returned."""
     finest: int = 2
-    """Pixels a side, of what is looked at, of the finest points that PointRend decides on: 1, 2, 4 …"""
+    """Pixels a side, as a pass is given them, of the finest points that PointRend decides on: 1, 2, 4 …"""
     batch: int = 1
     """How many pieces of one size go through the network together."""
-    looks: tuple[Look, ...] = ONE_LOOK
+    passes: tuple[Pass, ...] = ONE_PASS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,10 +54,10 @@ class Detection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Glimpse:
-    """A piece of a look, and the network's outputs for it."""
+class SeenPiece:
+    """A piece of a photo in one pass, and the network's outputs for it."""
 
-    look: Look
+    seen_in: Pass
     tile: Tile
     outputs: Outputs
     """For the batch that the piece was in."""
@@ -73,7 +73,7 @@ class Seen:
     height: int
     scaled: tuple[int, int]
     """Width and height of the scaled photo."""
-    glimpses: list[Glimpse]
+    pieces: list[SeenPiece]
 
 
 class Predictor:
@@ -93,28 +93,28 @@ class Predictor:
         """``see`` and ``read`` of one photo."""
         return self.read(self.see(photo, scale=scale))
 
-    def see(self, photo: Pixels, *, scale: float = 1.0, seen: Sequence[Glimpse] = ()) -> Seen:
+    def see(self, photo: Pixels, *, scale: float = 1.0, seen: Sequence[SeenPiece] = ()) -> Seen:
         """Runs the network on a photo (height, width, 3) uint8 RGB, brought to a scale; for ``read``.
 
-        ``seen``: what a look at the photo at this scale, not enlarged, gave already.
+        ``seen``: what a pass over the photo at this scale, not enlarged, gave already.
         """
         scaled = resized(photo, scale)
-        glimpses: list[Glimpse] = []
-        for look in self.settings.looks:
-            again = seen if seen and look.enlarged == 1 else self.look(scaled, look)
-            glimpses += [replace(glimpse, look=look) for glimpse in again]
+        pieces: list[SeenPiece] = []
+        for nth in self.settings.passes:
+            again = seen if seen and nth.enlarged == 1 else self.go_over(scaled, nth)
+            pieces += [replace(piece, seen_in=nth) for piece in again]
         return Seen(
             width=photo.shape[1],
             height=photo.shape[0],
             scaled=(scaled.shape[1], scaled.shape[0]),
-            glimpses=glimpses,
+            pieces=pieces,
         )
 
     @torch.inference_mode()
-    def look(self, scaled: Pixels, look: Look) -> list[Glimpse]:
-        """Runs the network on one look at a scaled photo (height, width, 3) uint8 RGB."""
-        glimpses = []
-        photo = resized(scaled, look.enlarged)
+    def go_over(self, scaled: Pixels, nth: Pass) -> list[SeenPiece]:
+        """One pass of the network over a scaled photo (height, width, 3) uint8 RGB."""
+        pieces = []
+        photo = resized(scaled, nth.enlarged)
         tiles = tiles_of(photo.shape[1], photo.shape[0])
         for first in range(0, len(tiles), self.settings.batch):
             batch = tiles[first : first + self.settings.batch]
@@ -127,8 +127,8 @@ class Predictor:
             pixels = torch.from_numpy(inputs).to(self.device).permute(0, 3, 1, 2)
             outputs = self.network(pixels, origins.to(self.device))
             for index, tile in enumerate(batch):
-                glimpses.append(Glimpse(look=look, tile=tile, outputs=outputs, index=index))
-        return glimpses
+                pieces.append(SeenPiece(seen_in=nth, tile=tile, outputs=outputs, index=index))
+        return pieces
 
     def read(self, seen: Seen, settings: DecodeConfig | None = None) -> list[Detection]:
         """The caps of a photo, in falling order of score."""
@@ -142,26 +142,26 @@ class Predictor:
         settings = structs.replace(settings, least_score=least)
         config = self.network.config
         pieces = []
-        for glimpse in seen.glimpses:
-            instances = self.instances(glimpse, settings)
-            instances = _of_size(instances, glimpse.look, stride=config.mask_stride)
+        for piece in seen.pieces:
+            instances = self.instances(piece, settings)
+            instances = _of_size(instances, piece.seen_in, stride=config.mask_stride)
             refined = refine(
                 self.network.point_head,
-                glimpse.outputs.point_maps,
+                piece.outputs.point_maps,
                 instances,
-                image=glimpse.index,
+                image=piece.index,
                 mask_stride=config.mask_stride,
                 finest=self.settings.finest,
             )
             windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in refined]
             scores = instances.scores.tolist()
-            pieces.append(Piece(look=glimpse.look, tile=glimpse.tile, scores=scores, windows=windows))
+            pieces.append(Piece(seen_in=piece.seen_in, tile=piece.tile, scores=scores, windows=windows))
         return pieces
 
     @torch.inference_mode()
-    def instances(self, glimpse: Glimpse, settings: DecodeConfig) -> Instances:
-        """The instances of a piece of a look without duplicates, not refined yet."""
-        found = decode(glimpse.outputs, glimpse.index, self.network.config, settings)
+    def instances(self, piece: SeenPiece, settings: DecodeConfig) -> Instances:
+        """The instances of a piece without duplicates, not refined yet."""
+        found = decode(piece.outputs, piece.index, self.network.config, settings)
         return _chosen(found, distinct((found.logits > 0).cpu().numpy(), found.scores.tolist()))
 
     def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
@@ -188,10 +188,10 @@ class Predictor:
         return -(-tile.height // multiple) * multiple, -(-tile.width // multiple) * multiple
 
 
-def _of_size(instances: Instances, look: Look, *, stride: int) -> Instances:
-    """The instances that may be of the sizes that a look is for; the others need not be refined."""
+def _of_size(instances: Instances, nth: Pass, *, stride: int) -> Instances:
+    """The instances that may be of the sizes that a pass is for; the others need not be refined."""
     pixels = ((instances.logits > 0).sum((1, 2)) * stride**2).tolist()
-    return _chosen(instances, [nth for nth, count in enumerate(pixels) if look.takes(count, slack=ABOUT)])
+    return _chosen(instances, [index for index, count in enumerate(pixels) if nth.takes(count, slack=ABOUT)])
 
 
 def _chosen(instances: Instances, kept: Sequence[int]) -> Instances:

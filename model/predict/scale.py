@@ -9,18 +9,18 @@ from msgspec import structs
 
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.calibration import uncalibrated
-from fairyring.model.predict.looks import Look, first_scale, resized, scale_for
-from fairyring.model.predict.predictor import Detection, Glimpse, Predictor, Seen
+from fairyring.model.predict.passes import Pass, first_scale, resized, scale_for
+from fairyring.model.predict.predictor import Detection, Predictor, Seen, SeenPiece
 from fairyring.model.predict.tiles import LONGEST, SHORTEST
 
 CERTAIN = 0.5
 """Least score of the caps that are measured."""
 ENOUGH = 5
 """So many of them tell their size."""
-MOST_LOOKS = 4
-"""After so many the last scale is taken."""
+MOST_TRIES = 4
+"""Tries at other scales; after so many the last one is taken."""
 LARGEST_STEP = 4.0
-"""From one look to the next a photo is not enlarged by more."""
+"""From one try to the next a photo is not enlarged by more."""
 
 
 def detect_at_its_scale(
@@ -38,25 +38,25 @@ def see_at_its_scale(predictor: Predictor, photo: Pixels, *, diameter: float | N
     height, width = photo.shape[:2]
     if diameter is not None:
         return predictor.see(photo, scale=scale_for(diameter, otherwise=first_scale(width, height)))
-    scale, _, glimpses = _searched(predictor, photo)
-    return predictor.see(photo, scale=scale, seen=glimpses)
+    scale, _, pieces = _searched(predictor, photo)
+    return predictor.see(photo, scale=scale, seen=pieces)
 
 
 def diameter_in(predictor: Predictor, photo: Pixels) -> float | None:
-    """How wide the middling caps of a photo look, pixels; None where too few are seen at any scale."""
+    """How wide the middling caps of a photo are, pixels; None where too few are seen at any scale."""
     return _searched(predictor, photo)[1]
 
 
-def _searched(predictor: Predictor, photo: Pixels) -> tuple[float, float | None, Sequence[Glimpse]]:
+def _searched(predictor: Predictor, photo: Pixels) -> tuple[float, float | None, Sequence[SeenPiece]]:
     """The scale for a photo, its caps' diameter, and what was seen of all of it at that scale, if it was."""
     height, width = photo.shape[:2]
     first = scale = first_scale(width, height)
     diameter = None
-    for _ in range(MOST_LOOKS):
+    for _ in range(MOST_TRIES):
         part = _middle_of(photo, scale)
-        glimpses = predictor.look(resized(part, scale), Look())
+        pieces = predictor.go_over(resized(part, scale), Pass())
         whole = part.shape == photo.shape
-        seen = _middling(predictor, glimpses)
+        seen = _middling(predictor, pieces)
         if seen is None:
             # Caps too small to be seen may be there; larger ones would have been.
             better = scale * 2
@@ -64,7 +64,7 @@ def _searched(predictor: Predictor, photo: Pixels) -> tuple[float, float | None,
             diameter = seen / scale
             better = min(scale_for(diameter, otherwise=scale), scale * LARGEST_STEP)
         if better == scale:
-            return scale, diameter, glimpses if whole else ()
+            return scale, diameter, pieces if whole else ()
         scale = better
     return (first, None, ()) if diameter is None else (scale_for(diameter, otherwise=first), diameter, ())
 
@@ -78,14 +78,14 @@ def _middle_of(photo: Pixels, scale: float) -> Pixels:
     return photo[top : top + h, left : left + w]
 
 
-def _middling(predictor: Predictor, glimpses: Sequence[Glimpse]) -> float | None:
-    """The median diameter of certain caps, of the circles of what is visible, in pixels of the look."""
+def _middling(predictor: Predictor, pieces: Sequence[SeenPiece]) -> float | None:
+    """The median diameter of certain caps, of the circles of what is visible, in pixels of the pass."""
     least = uncalibrated(CERTAIN, predictor.calibration)
     settings = structs.replace(predictor.settings.decode, least_score=least)
     stride = predictor.network.config.mask_stride
     pixels = [
         count * stride**2
-        for glimpse in glimpses
-        for count in (predictor.instances(glimpse, settings).logits > 0).sum((1, 2)).tolist()
+        for piece in pieces
+        for count in (predictor.instances(piece, settings).logits > 0).sum((1, 2)).tolist()
     ]
     return float(np.median((4 * np.array(pixels) / np.pi) ** 0.5)) if len(pixels) >= ENOUGH else None

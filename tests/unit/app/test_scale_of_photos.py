@@ -9,7 +9,7 @@ import torch
 from fairyring.app.bench.network.sets import rendered
 from fairyring.model.network.weights import load_weights
 from fairyring.model.photo import Pixels
-from fairyring.model.predict.looks import resized
+from fairyring.model.predict.passes import resized
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.scale import diameter_in, see_at_its_scale
 from fairyring.model.predict.shipped import SHIPPED

@@ -1,16 +1,16 @@
-"""Caps that were seen in several pieces and looks."""
+"""Caps that were seen in several pieces and passes."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from fairyring.model.predict.looks import Look
 from fairyring.model.predict.overlaps import Window
+from fairyring.model.predict.passes import Pass
 from fairyring.model.predict.pooling import Piece, pooled
 from fairyring.model.predict.tiles import tiles_of
 
 WIDTH, HEIGHT = 200, 120
-PLAIN, CLOSE = Look(least=20), Look(enlarged=1.5, most=40)
+PLAIN, CLOSE = Pass(least=20), Pass(enlarged=1.5, most=40)
 
 
 def disc(cx: float, cy: float, r: float) -> Window:
@@ -20,9 +20,9 @@ def disc(cx: float, cy: float, r: float) -> Window:
     return Window(x=left, y=top, logits=(r - np.hypot(x + left - cx, y + top - cy)).astype(np.float32))
 
 
-def piece(look: Look, *seen: tuple[float, Window]) -> Piece:
-    (tile,) = tiles_of(round(WIDTH * look.enlarged), round(HEIGHT * look.enlarged))
-    return Piece(look=look, tile=tile, scores=[s for s, _ in seen], windows=[w for _, w in seen])
+def piece(seen_in: Pass, *seen: tuple[float, Window]) -> Piece:
+    (tile,) = tiles_of(round(WIDTH * seen_in.enlarged), round(HEIGHT * seen_in.enlarged))
+    return Piece(seen_in=seen_in, tile=tile, scores=[s for s, _ in seen], windows=[w for _, w in seen])
 
 
 def widths(*pieces: Piece) -> list[tuple[float, int]]:
@@ -31,19 +31,19 @@ def widths(*pieces: Piece) -> list[tuple[float, int]]:
     return [(score, int((window.logits > 0).any(axis=0).sum())) for score, window in found]
 
 
-def test_a_cap_of_both_looks_is_taken_from_the_surer_one() -> None:
+def test_a_cap_of_both_passes_is_taken_from_the_surer_one() -> None:
     plain, close = disc(100, 60, 15), disc(150, 90, 22.5)
     assert widths(piece(PLAIN, (0.9, plain)), piece(CLOSE, (0.8, close))) == [(0.9, 30)]
     assert widths(piece(PLAIN, (0.7, plain)), piece(CLOSE, (0.8, close))) == [(0.8, 30)]
 
 
-def test_caps_that_a_look_is_not_for_are_not_taken_from_it() -> None:
+def test_caps_that_a_pass_is_not_for_are_not_taken_from_it() -> None:
     bud, large = disc(100, 60, 8), disc(150, 90, 45)
     assert widths(piece(PLAIN, (0.9, bud)), piece(CLOSE, (0.8, large))) == []
 
 
 def test_a_small_cap_on_a_large_one_is_no_repeat_if_it_was_seen_beside_it() -> None:
-    """One look saw both and told them apart; where two looks differ, the surer is believed."""
+    """One pass saw both and told them apart; where two passes differ, the surer is believed."""
     large, small = disc(60, 60, 40), disc(60, 60, 12)
     assert len(widths(piece(PLAIN, (0.9, large), (0.8, small)))) == 2
     assert widths(piece(PLAIN, (0.9, large)), piece(CLOSE, (0.8, disc(90, 90, 18)))) == [(0.9, 80)]

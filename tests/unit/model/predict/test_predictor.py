@@ -17,7 +17,7 @@ from fairyring.model.network.refine import RefinedMask
 from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
-from fairyring.model.predict.looks import Look, resized
+from fairyring.model.predict.passes import Pass, resized
 from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
 from fairyring.model.train.data import read_rgb
 from tests.support.discs import DISCS, SIDE, photo_of
@@ -171,18 +171,18 @@ def test_a_photo_at_another_scale_gives_the_same_caps_in_its_own_pixels(
         assert area_of_outline(after.outline) / 9 == pytest.approx(area_of_outline(before.outline), rel=0.03)
 
 
-def test_what_one_look_saw_is_not_looked_at_again(predictor: Predictor, learnt: Learnt) -> None:
+def test_what_one_pass_gave_is_not_asked_for_again(predictor: Predictor, learnt: Learnt) -> None:
     photo = read_rgb(learnt.examples[0].path)
-    glimpses = predictor.look(photo, Look())
-    seen = predictor.see(photo, seen=glimpses)
-    assert [glimpse.outputs for glimpse in seen.glimpses] == [glimpse.outputs for glimpse in glimpses]
+    pieces = predictor.go_over(photo, Pass())
+    seen = predictor.see(photo, seen=pieces)
+    assert [piece.outputs for piece in seen.pieces] == [piece.outputs for piece in pieces]
     assert same(predictor.read(seen), predictor.detect(photo))
 
 
-def test_caps_are_taken_from_the_look_that_is_for_their_size(predictor: Predictor, learnt: Learnt) -> None:
+def test_caps_are_taken_from_the_pass_that_is_for_their_size(predictor: Predictor, learnt: Learnt) -> None:
     """The discs are 25, 34, 44 and 50 pixels wide."""
     photo = read_rgb(learnt.examples[0].path)
-    for look, expected in ((Look(most=39), [25, 34]), (Look(least=39), [44, 50])):
-        chosen = Predictor(predictor.network, device=CPU, settings=PredictConfig(looks=(look,)))
+    for only, expected in ((Pass(most=39), [25, 34]), (Pass(least=39), [44, 50])):
+        chosen = Predictor(predictor.network, device=CPU, settings=PredictConfig(passes=(only,)))
         found = [2 * (area_of_outline(one.outline) / math.pi) ** 0.5 for one in sure(chosen.detect(photo))]
         assert sorted(found) == pytest.approx(expected, abs=2)

@@ -1,4 +1,4 @@
-"""The scales that a photo is looked at, and windows brought from one to the other."""
+"""The scales that a photo is passed at, and windows brought from one to the other."""
 
 from __future__ import annotations
 
@@ -9,34 +9,34 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fairyring.model.predict.looks import (
+from fairyring.model.predict.overlaps import Window
+from fairyring.model.predict.passes import (
     BEST,
     KNOWN,
-    TWO_LOOKS,
-    Look,
+    TWO_PASSES,
+    Pass,
     first_scale,
     resized,
     scale_for,
     shrunk,
 )
-from fairyring.model.predict.overlaps import Window
 
 
 def pixels_of(diameter: float) -> float:
     return math.pi * diameter**2 / 4
 
 
-def test_a_look_takes_caps_by_their_diameter_in_the_scaled_photo() -> None:
-    look = Look(enlarged=1.5, least=20, most=40)
-    taken = [width for width in (19, 21, 39, 41) if look.takes(pixels_of(width * 1.5))]
+def test_a_pass_takes_caps_by_their_diameter_in_the_scaled_photo() -> None:
+    close = Pass(enlarged=1.5, least=20, most=40)
+    taken = [width for width in (19, 21, 39, 41) if close.takes(pixels_of(width * 1.5))]
     assert taken == [21, 39]
-    assert look.takes(pixels_of(50 * 1.5), slack=1.3)
-    assert not look.takes(pixels_of(53 * 1.5), slack=1.3)
+    assert close.takes(pixels_of(50 * 1.5), slack=1.3)
+    assert not close.takes(pixels_of(53 * 1.5), slack=1.3)
 
 
 @given(st.floats(1, 1000))
 def test_every_size_is_taken_from_one_of_two_looks(diameter: float) -> None:
-    assert any(look.takes(pixels_of(diameter * look.enlarged)) for look in TWO_LOOKS)
+    assert any(each.takes(pixels_of(diameter * each.enlarged)) for each in TWO_PASSES)
 
 
 def test_photos_are_first_seen_no_wider_than_the_network_was_taught() -> None:
@@ -71,6 +71,6 @@ def test_an_edge_stays_where_it_is_when_its_window_is_shrunk(enlarged: float, at
     assert small.logits.shape[0] == math.ceil((at[1] + 40) / enlarged) - small.y
 
 
-def test_a_window_of_a_look_that_is_not_enlarged_stays_what_it_is() -> None:
+def test_a_window_of_a_pass_that_is_not_enlarged_stays_what_it_is() -> None:
     window = Window(x=3, y=4, logits=np.ones((2, 2), np.float32))
     assert shrunk(window, enlarged=1) is window

@@ -1,6 +1,6 @@
-"""How a photo is looked at: at the scale that the network knows, and enlarged for its small caps.
+"""The passes of the network over a photo: at the scale that it knows, and enlarged for small caps.
 
-The photo at the former is the *scaled photo*: all looks are brought together there.
+The photo at the former is the *scaled photo*: all passes are brought together there.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ BEST = 50.0
 """The diameter that others are brought to."""
 
 
-class Look(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """One look at a scaled photo, and which caps are taken from it."""
+class Pass(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One pass over a scaled photo, and which caps are taken from it."""
 
     enlarged: float = 1.0
-    """Pixels of what is looked at for each pixel of the scaled photo."""
+    """Pixels that the network is given for each pixel of the scaled photo."""
     least: float = 0.0
     """Diameter of the smallest caps taken: of a circle of their visible area, scaled photo's pixels."""
     most: float = 1e9
     """Diameter of the largest."""
 
     def takes(self, pixels: float, *, slack: float = 1.0) -> bool:
-        """Whether caps of so many visible pixels of this look are taken; ``slack`` widens the range."""
+        """Whether caps of so many visible pixels, of the pass itself, are taken; ``slack`` widens this."""
         diameter = (4 * pixels / np.pi) ** 0.5 / self.enlarged
         return self.least / slack <= diameter <= self.most * slack
 
 
-ONE_LOOK = (Look(),)
-TWO_LOOKS = (Look(least=24), Look(enlarged=1.5, most=48))
+ONE_PASS = (Pass(),)
+TWO_PASSES = (Pass(least=24), Pass(enlarged=1.5, most=48))
 """Caps of 24 to 48 pixels are taken from whichever of the two is surer of them."""
 
 
@@ -62,7 +62,7 @@ def resized(photo: Pixels, scale: float) -> Pixels:
 
 
 def shrunk(window: Window, *, enlarged: float) -> Window:
-    """A window of an enlarged look with its logits at the pixels of the scaled photo."""
+    """A window of an enlarged pass with its logits at the pixels of the scaled photo."""
     if enlarged == 1:
         return window
     height, width = window.logits.shape
