@@ -29,11 +29,11 @@ def test_an_accepted_edit_is_in_the_file(beds, cap):
 
 
 def test_an_outline_ends_where_the_photo_does(beds):
-    leaving = Cap(visible=[[90.0, 10.0, 130.0, 10.0, 130.0, 30.0, 90.0, 30.0]], mark=Circle(110, 20, 10))
+    leaving = Cap(visible=[[90.0, 10.0, 130.0, 10.0, 130.0, 30.0, 90.0, 30.0]], mark=Circle(105, 20, 10))
     stored = one(beds, cap=leaving).annotation.cap
     (part,) = stored.visible
     assert (min(part[0::2]), max(part[0::2]), min(part[1::2]), max(part[1::2])) == (90, 100, 10, 30)
-    assert stored.mark == Circle(110, 20, 10)
+    assert stored.mark == Circle(105, 20, 10)
 
 
 def test_every_field_of_a_cap_is_kept(beds, square):
