@@ -22,6 +22,7 @@ from fairyring.model.predict.level_lines import outline_of_logits
 from fairyring.model.predict.overlaps import Window, distinct
 from fairyring.model.predict.passes import ONE_PASS, Pass, resized
 from fairyring.model.predict.pooling import Piece, pooled
+from fairyring.model.predict.smoothing import smoothed
 from fairyring.model.predict.tiles import Tile, tiles_of
 
 ABOUT = 1.4
@@ -171,7 +172,7 @@ class Predictor:
         found = [
             (score, _scaled(outline, photo_pixels))
             for score, window in pooled(pieces, width=width, height=height)
-            if (outline := outline_of_logits(window.logits, corner=(window.x, window.y)))
+            if (outline := outline_of_logits(smoothed(window.logits), corner=(window.x, window.y)))
         ]
         scores = calibrated(np.array([score for score, _ in found]), self.calibration)
         return [
