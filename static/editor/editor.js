@@ -5,11 +5,12 @@
  */
 
 import { same } from "./geometry/same.js";
-import { ACTIONS, showTravelled } from "./input/actions.js";
+import { ACTIONS } from "./input/actions.js";
 import { bringFocusBack, switchFocus } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { Toolbox } from "./input/toolbox.js";
+import { travelIn } from "./input/travel.js";
 import { Opening } from "./opening.js";
 import { expose } from "./probe.js";
 import { Frame } from "./render/frame.js";
@@ -39,18 +40,6 @@ import { statusIn } from "./ui/status.js";
 /** Close codes of the server. */
 const NO_NAME = 4401;
 const TOO_BIG = 1009;
-
-/** Why nothing can be taken back or done again. */
-const STUCK = {
-  nothing: {
-    undo: "There is nothing to undo on this image.",
-    redo: "There is nothing to redo.",
-  },
-  offline: {
-    undo: "What was done before this page was loaded can be undone when the server is back.",
-    redo: "What was undone before this page was loaded can be done again when the server is back.",
-  },
-};
 
 export class Editor {
   #project = "";
@@ -92,8 +81,10 @@ export class Editor {
       stalled: () => this.#transport.drop(),
       progress: () => this.#progress(),
       refused: (edit, reason) => this.#refusals.tell(edit, reason),
-      travelled: (travelled) => this.#travelled(travelled),
-      stuck: (why, way) => this.#say(STUCK[why][way], "warning"),
+      ...travelIn(state, {
+        open: (image) => this.#open(image, null),
+        say: (text, level) => this.#say(text, level),
+      }),
     });
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
@@ -236,13 +227,6 @@ export class Editor {
       state.select([uid]);
       state.reveal({ close: true });
     }
-  }
-
-  /** @type {(travelled: import("./sync/sync.js").Travelled) => void} */
-  #travelled({ image, changes, stayed }) {
-    if (image !== this.#state.image?.id) this.#open(image, null);
-    else showTravelled(this.#state, changes);
-    if (stayed) this.#say(`${stayed} of these caps were changed since and stay as they are.`);
   }
 
   #tellSelection() {

@@ -6,7 +6,7 @@
 
 import DECLARED from "../commands.js";
 import { areaOfRing, circleOfWhole, measure, polygonOfCircle } from "../geometry/caps.js";
-import { isPrediction, uidOfPrediction } from "../geometry/shapes.js";
+import { isPrediction } from "../geometry/shapes.js";
 import { questionOf } from "../state/finishing.js";
 import { acceptAll, acceptSelected, changeSelected, deleteSelected, nudge } from "../state/edits.js";
 import { commandOfLayer } from "./keys.js";
@@ -15,7 +15,6 @@ import { commandOfLayer } from "./keys.js";
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
-/** @typedef {import("../state/changes.js").Change} Change */
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tools/tool.js").Tool} Tool */
 /** @typedef {import("../state/finishing.js").Question} Question */
@@ -93,19 +92,6 @@ for (const [name, dx, dy] of /** @type {[string, number, number][]} */ ([
 
 for (const { name } of DECLARED.layers) ACTIONS[commandOfLayer(name)] = ({ toggle }) => toggle(name);
 
-/**
- * Selects what was taken back or done again, and brings it into view.
- *
- * @param {EditorState} state
- * @param {Change[]} changes
- */
-export function showTravelled(state, changes) {
-  const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
-  const known = uids.filter((uid) => state.items.get(uid));
-  if (changes.length) state.select(known.length <= 20 ? known : []);
-  state.glimpse();
-}
-
 /** @type {(state: EditorState, factor: number) => void} */
 function zoom({ viewport }, factor) {
   viewport.zoomAt(viewport.size.width / 2, viewport.size.height / 2, factor);
@@ -115,15 +101,6 @@ function zoom({ viewport }, factor) {
 function step({ state, send }, by) {
   state.commitDrafts();
   send({ type: "step", by });
-}
-
-/**
- * The prediction that is open again when its annotation is gone.
- *
- * @type {(before: Shape | null) => string[]}
- */
-function openAgain(before) {
-  return before && before.cap.prediction !== null ? [uidOfPrediction(before.cap.prediction)] : [];
 }
 
 /** @type {(context: Context) => void} */

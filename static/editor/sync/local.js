@@ -8,12 +8,13 @@
 import { shapeOfAnnotation } from "../geometry/shapes.js";
 import { History } from "../state/history.js";
 import { Confirmed } from "./confirmed.js";
-import { statusAfter } from "./edits.js";
+import { editOfStatus, editsOfChange, statusAfter } from "./edits.js";
 import { Outbox, isOfCap } from "./outbox.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Status} Status */
+/** @typedef {import("../state/history.js").Move} Move */
 /** @typedef {import("../state/store.js").Store} Store */
 
 /**
@@ -54,6 +55,38 @@ export class Local {
   statusOf(image) {
     const waiting = this.outbox.edits().filter((edit) => edit.image === image);
     return statusAfter(this.confirmed.statuses.get(image) ?? "new", waiting);
+  }
+
+  /**
+   * Shows what is done, and puts the edits that do it into the outbox.
+   *
+   * @param {number} image
+   * @param {string} changeSet
+   * @param {Move} move
+   */
+  carryOut(image, changeSet, { takesBack, changes, status }) {
+    const { outbox, store } = this;
+    const whence = { image, changeSet, takesBack };
+    const edits = changes.map((change) => (outbox.holds(change.after.uid) ? [] : editsOfChange(change, whence)));
+    const shown = changes.map((change, i) => {
+      const revision = (change.before?.revision ?? 0) + edits[i].length;
+      return { ...change, after: { ...change.after, revision } };
+    });
+    store.apply(shown);
+    const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : [])];
+    if (all.length) outbox.add(all);
+    for (const { after } of changes) this.#foldIntoHeld(after);
+  }
+
+  /**
+   * What a person goes on changing while a conflict waits belongs to their side of it.
+   *
+   * @type {(shape: Shape) => void}
+   */
+  #foldIntoHeld(shape) {
+    const { outbox } = this;
+    const held = outbox.holds(shape.uid) ? outbox.lastOf(shape.uid) : null;
+    if (held) outbox.hold({ ...held, cap: shape.deleted ? null : shape.cap });
   }
 
   /**

@@ -7,13 +7,11 @@
 
 import { newId } from "../ids.js";
 import { backwards } from "../state/history.js";
-import { editOfStatus, editsOfChange } from "./edits.js";
 import { Local } from "./local.js";
 import { isOfCap } from "./outbox.js";
 import { Recalling, changeSetOf } from "./recalling.js";
 import { decide, refuse, settle, takeNews } from "./settle.js";
 
-/** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Outcome} Outcome */
 /** @typedef {import("../protocol.js").Recalled} Recalled */
@@ -218,30 +216,9 @@ export class Sync {
   }
 
   /** @type {(image: number, changeSet: string, move: Move) => void} */
-  #carryOut(image, changeSet, { takesBack, changes, status }) {
-    const { outbox, store } = this.#local;
-    const whence = { image, changeSet, takesBack };
-    const edits = changes.map((change) => (outbox.holds(change.after.uid) ? [] : editsOfChange(change, whence)));
-    const after = changes.map((change, i) => {
-      const revision = (change.before?.revision ?? 0) + edits[i].length;
-      return { ...change, after: { ...change.after, revision } };
-    });
-    store.apply(after);
-    const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : [])];
-    if (all.length) outbox.add(all);
-    for (const change of changes) this.#foldIntoHeld(change.after);
+  #carryOut(image, changeSet, move) {
+    this.#local.carryOut(image, changeSet, move);
     this.pump();
-  }
-
-  /**
-   * What a person goes on changing while a conflict waits belongs to their side of it.
-   *
-   * @type {(shape: Shape) => void}
-   */
-  #foldIntoHeld(shape) {
-    const { outbox } = this.#local;
-    const held = outbox.holds(shape.uid) ? outbox.lastOf(shape.uid) : null;
-    if (held) outbox.hold({ ...held, cap: shape.deleted ? null : shape.cap });
   }
 
   /** Sends what is next, unless something is on its way. @returns {boolean} whether anything is, or could be */

@@ -1,0 +1,58 @@
+/**
+ * What a person sees of an undo or a redo.
+ *
+ * @module
+ */
+
+import { uidOfPrediction } from "../geometry/shapes.js";
+
+/** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("../sync/sync.js").Travelled} Travelled */
+/** @typedef {import("../sync/sync.js").Way} Way */
+
+/** More caps than these are not selected. */
+const MOST_SELECTED = 20;
+
+/** Why nothing can be taken back or done again. */
+const STUCK = {
+  nothing: {
+    undo: "There is nothing to undo on this image.",
+    redo: "There is nothing to redo.",
+  },
+  offline: {
+    undo: "What was done before this page was loaded can be undone when the server is back.",
+    redo: "What was undone before this page was loaded can be done again when the server is back.",
+  },
+};
+
+/**
+ * @param {EditorState} state
+ * @param {Object} how
+ * @param {(image: number, select: null) => void} how.open
+ * @param {(text: string, level?: "info" | "warning") => void} how.say
+ */
+export function travelIn(state, { open, say }) {
+  return {
+    /** @type {(travelled: Travelled) => void} */
+    travelled({ image, changes, stayed }) {
+      if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
+      if (image !== state.image?.id) return open(image, null);
+      const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
+      const known = uids.filter((uid) => state.items.get(uid));
+      if (changes.length) state.select(known.length <= MOST_SELECTED ? known : []);
+      state.glimpse();
+    },
+    /** @type {(why: keyof typeof STUCK, way: Way) => void} */
+    stuck: (why, way) => say(STUCK[why][way], "warning"),
+  };
+}
+
+/**
+ * The prediction that is open again when its annotation is gone.
+ *
+ * @type {(before: Shape | null) => string[]}
+ */
+function openAgain(before) {
+  return before && before.cap.prediction !== null ? [uidOfPrediction(before.cap.prediction)] : [];
+}
