@@ -5,7 +5,7 @@
  * @module
  */
 
-import { grown, joinedAll, overlap } from "./bounds.js";
+import { grown } from "./bounds.js";
 
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("./bounds.js").Bounds} Bounds */
@@ -100,22 +100,6 @@ export function revealing(view, bounds, size) {
   }
   const [left, top] = toScreen(view, bounds.x0, bounds.y0);
   return panned(view, shift(left, width, size.width, margin), shift(top, height, size.height, margin));
-}
-
-/**
- * The same view where any of the rectangles is on screen; else one that shows all of them, zoomed out where
- * that is needed and never in.
- *
- * @param {View} view
- * @param {Bounds[]} all
- * @param {Size} size
- * @returns {View}
- */
-export function glimpsing(view, all, size) {
-  const shown = visibleBounds(view, size);
-  const bounds = joinedAll(all);
-  if (!bounds || all.some((each) => overlap(each, shown))) return view;
-  return centredOn(bounds, size, Math.min(view.scale, viewOf(bounds, size, 40).scale));
 }
 
 /** @type {(bounds: Bounds, size: Size, scale: number) => View} */

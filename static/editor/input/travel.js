@@ -14,6 +14,8 @@ import { uidOfPrediction } from "../geometry/shapes.js";
 /** More caps than these are not selected. */
 const MOST_SELECTED = 20;
 
+const OUT_OF_SIGHT = "That was out of sight; Z shows it.";
+
 /** Why nothing can be taken back or done again. */
 const STUCK = {
   nothing: {
@@ -41,7 +43,8 @@ export function travelIn(state, { open, say }) {
       const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
       const known = uids.filter((uid) => state.items.get(uid));
       if (changes.length) state.select(known.length <= MOST_SELECTED ? known : []);
-      state.glimpse();
+      // The view stays where it is: whoever works there may not want to be taken away.
+      if (state.selected.length && !state.selectionOnScreen) say(OUT_OF_SIGHT);
     },
     /** @type {(why: keyof typeof STUCK, way: Way) => void} */
     stuck: (why, way) => say(STUCK[why][way], "warning"),

@@ -209,9 +209,9 @@ export class EditorState {
     if (bounds) this.viewport.reveal(bounds, { close });
   }
 
-  /** Brings the selection into view where nothing of it is, without zooming in. */
-  glimpse() {
-    this.viewport.glimpse(this.#boundsOfSelected());
+  /** Whether anything of the selection is on screen. */
+  get selectionOnScreen() {
+    return this.#boundsOfSelected().some((bounds) => this.viewport.shows(bounds));
   }
 
   #boundsOfSelected() {

@@ -4,10 +4,9 @@
  * @module
  */
 
-import { contains } from "../geometry/bounds.js";
+import { contains, overlap } from "../geometry/bounds.js";
 import {
   closeUp,
-  glimpsing,
   onDevicePixels,
   panned,
   revealing,
@@ -127,17 +126,14 @@ export class Viewport {
 
   /** Brings a part of the photo into view. @type {(bounds: Bounds, how: {close: boolean}) => void} */
   reveal(bounds, { close }) {
-    this.#change(close ? closeUp(this.view, bounds, this.size) : revealing(this.view, bounds, this.size));
-  }
-
-  /** Brings parts of the photo into view where none of them is; never zooms in. @type {(all: Bounds[]) => void} */
-  glimpse(all) {
-    this.#change(glimpsing(this.view, all, this.size));
-  }
-
-  /** Where nothing moves, a whole photo stays whole. @type {(view: View) => void} */
-  #change(view) {
-    const { scale, x, y } = this.view;
+    const { x, y, scale } = this.view;
+    const view = close ? closeUp(this.view, bounds, this.size) : revealing(this.view, bounds, this.size);
+    // Where nothing moves, a whole photo stays whole.
     if (view.scale !== scale || view.x !== x || view.y !== y) this.#show(view);
+  }
+
+  /** Whether anything of a part of the photo is on screen. @type {(bounds: Bounds) => boolean} */
+  shows(bounds) {
+    return overlap(bounds, visibleBounds(this.view, this.size));
   }
 }

@@ -1,14 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import {
-  closeUp,
-  glimpsing,
-  revealing,
-  toImage,
-  viewOf,
-  zoomed,
-} from "../../../static/editor/geometry/view.js";
+import { closeUp, revealing, toImage, viewOf, zoomed } from "../../../static/editor/geometry/view.js";
 import { chances } from "../support/chances.js";
 
 const SIZE = { width: 1016, height: 850 };
@@ -74,23 +67,4 @@ test("a close-up of a large cap fills the window, and zooms out as far as that t
   const large = { x0: 0, y0: 0, x1: 400, y1: 400 };
   const { scale } = closeUp({ scale: 30, x: 0, y: 0 }, large, SIZE);
   assert.equal(scale, (SIZE.height - 80) / 800);
-});
-
-test("a glimpse of what is on screen, be it in part, moves nothing", () => {
-  const here = { x0: -30, y0: 10, x1: 5, y1: 30 };
-  const elsewhere = { x0: 9000, y0: 0, x1: 9010, y1: 10 };
-  assert.equal(glimpsing(AT_HOME, [elsewhere, here], SIZE), AT_HOME);
-  assert.equal(glimpsing(AT_HOME, [], SIZE), AT_HOME);
-});
-
-test("a glimpse of what is elsewhere goes there without zooming in", () => {
-  const view = glimpsing({ scale: 3, x: 0, y: 0 }, [{ x0: 9000, y0: 0, x1: 9010, y1: 10 }], SIZE);
-  assert.deepEqual([view.scale, inTheMiddle(view)], [3, [9005, 5]]);
-});
-
-test("a glimpse of more than fits zooms out", () => {
-  const far = { x0: 9000, y0: 0, x1: 9010, y1: 10 };
-  const farther = { x0: 9000, y0: 5000, x1: 9010, y1: 5010 };
-  const { scale } = glimpsing(AT_HOME, [far, farther], SIZE);
-  assert.equal(scale, (SIZE.height - 80) / 5010);
 });

@@ -67,6 +67,13 @@ test("a part that was looked at before a reload is looked at again, also in anot
 test("showing what is on screen already moves nothing, and a whole photo stays whole", () => {
   const viewport = opened();
   const before = viewport.view;
-  viewport.glimpse([{ x0: 100, y0: 100, x1: 104, y1: 104 }]);
+  viewport.reveal({ x0: 100, y0: 100, x1: 180, y1: 180 }, { close: false });
   assert.deepEqual([viewport.view, viewport.look], [before, null]);
+});
+
+test("a part is on screen as soon as anything of it is", () => {
+  const viewport = opened();
+  viewport.zoomAt(12, 12, 2);
+  assert.ok(viewport.shows({ x0: 1000, y0: 0, x1: 1100, y1: 10 }));
+  assert.equal(viewport.shows({ x0: 1100, y0: 0, x1: 1200, y1: 10 }), false);
 });
