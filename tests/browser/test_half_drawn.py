@@ -11,6 +11,7 @@ import pytest
 from fairyring.app.bench.browser.tab import Point, Tab
 from fairyring.app.bench.serving import Server
 from tests.support.kept import kept_cap, live_caps
+from tests.support.said import said
 
 CORNERS = [(12.0, 12.0), (52.0, 10.0), (58.0, 40.0), (30.0, 55.0), (8.0, 38.0)]
 OTHERS = [(90.0, 12.0), (130.0, 10.0), (136.0, 40.0), (108.0, 55.0)]
@@ -27,11 +28,6 @@ def place(tab: Tab, points: Sequence[Point]) -> None:
         tab.press("w")
     for point in points:
         tab.click(point)
-
-
-def said(tab: Tab, text: str) -> None:
-    """Waits until a notice holds this text."""
-    tab.page.locator(".fairyring-notice").filter(has_text=text).first.wait_for()
 
 
 def sizes(tab: Tab) -> list[int]:

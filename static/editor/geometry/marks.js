@@ -13,13 +13,17 @@ import { areaOfRing, axesOf, insideRing, insideWhole, measure, placedWhole } fro
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../protocol.js").Whole} Whole */
 
-/** A mark goes around what is seen of its cap: at least around this share of it. */
+/** A mark goes around what is seen of its cap: around this share of it, wherever it was begun; */
 const LEAST_SHARE = 0.5;
+/** or around this share, where it was begun well inside the whole outline that was worked out. */
+const LEAST_SHARE_INSIDE = 0.1;
+/** Well inside: within an ellipse of this share of the axes. */
+const WELL_INSIDE = 0.75;
 /** What is seen of a cap reaches across at least this many radii of its mark; a bud beside it does not. */
 const LEAST_REACH = 0.6;
 /** A circle of less than this share of what is seen is not around the cap, wherever it was begun. */
 const LEAST_AREA = 0.2;
-/** Of two circles of one cap the smaller is at least this large, and the centres are no farther apart than this, in radii. */
+/** Of two circles of one cap the smaller is this large at least, and the centres no farther apart, in radii. */
 const ALIKE = 0.5;
 const SAMPLES = 24;
 
@@ -27,17 +31,25 @@ const SAMPLES = 24;
  * Whether a circle is the mark of this cap, rather than a cap of its own beside it or upon it.
  *
  * @param {Circle} circle
- * @param {Cap} cap
+ * @param {Pick<import("./shapes.js").Shape, "cap" | "whole">} shape
  * @returns {boolean}
  */
-export function isMarkOf(circle, cap) {
+export function isMarkOf(circle, { cap, whole }) {
   const placed = placedWhole(cap);
   if (cap.visible.length === 0) return placed !== null && alike(circle, placed);
   const { bounds, area } = measure({ ...cap, mark: null });
   if (!bounds || Math.PI * circle.r ** 2 < LEAST_AREA * area) return false;
   if (cap.visible.some((ring) => insideRing(ring, circle.cx, circle.cy))) return true;
   const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
-  return reach >= LEAST_REACH * circle.r && shareInside(cap.visible, circle) >= LEAST_SHARE;
+  const least = whole && isWellInside(whole, circle) ? LEAST_SHARE_INSIDE : LEAST_SHARE;
+  return reach >= LEAST_REACH * circle.r && shareInside(cap.visible, circle) >= least;
+}
+
+/** @type {(whole: Whole, circle: Circle) => boolean} */
+function isWellInside(whole, { cx, cy }) {
+  const x = whole.cx + (cx - whole.cx) / WELL_INSIDE;
+  const y = whole.cy + (cy - whole.cy) / WELL_INSIDE;
+  return insideWhole(whole, x, y);
 }
 
 /**

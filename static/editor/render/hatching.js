@@ -3,6 +3,7 @@ import { FILLS } from "./palette.js";
 import { traceRing, traceWhole } from "./paths.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("./paths.js").Context} Context */
 
@@ -16,13 +17,18 @@ export function hatch(context, view, shapes) {
   if (!pattern) return;
   context.fillStyle = pattern;
   for (const { cap } of shapes) {
-    context.beginPath();
-    const polygon = cap.mark?.kind === "polygon" ? [cap.mark.points] : [];
-    for (const ring of cap.visible.length ? cap.visible : polygon) traceRing(context, view, ring);
-    const placed = cap.visible.length ? null : placedWhole(cap);
-    if (placed) traceWhole(context, view, placed);
+    traceKnown(context, view, cap);
     context.fill();
   }
+}
+
+/** The visible outline of a cap, else its mark, as a path. @type {(context: Context, view: View, cap: Cap) => void} */
+export function traceKnown(context, view, cap) {
+  context.beginPath();
+  const polygon = cap.mark?.kind === "polygon" ? [cap.mark.points] : [];
+  for (const ring of cap.visible.length ? cap.visible : polygon) traceRing(context, view, ring);
+  const placed = cap.visible.length ? null : placedWhole(cap);
+  if (placed) traceWhole(context, view, placed);
 }
 
 /** @type {(context: Context) => CanvasPattern | null} */

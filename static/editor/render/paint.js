@@ -8,7 +8,7 @@
 import { grown, overlap } from "../geometry/bounds.js";
 import { isPrediction, reachOf } from "../geometry/shapes.js";
 import { toScreen } from "../geometry/view.js";
-import { hatch } from "./hatching.js";
+import { hatch, traceKnown } from "./hatching.js";
 import { CASING, COLOURS, FILLS, SHADE } from "./palette.js";
 import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCentred } from "./paths.js";
 
@@ -90,7 +90,8 @@ function paintGroup(context, view, shapes, { style, visible, fine }) {
   if (style === "selected" || (style !== "ignored" && visible.fill))
     fillShapes(context, view, shapes, FILLS[style]);
   if (visible.whole && style !== "ignored") strokeWholes(context, view, large);
-  if (visible.outline || style === "prediction") strokeOutlines(context, view, shapes, style, fine);
+  if (visible.outline || style === "prediction" || style === "ignored")
+    strokeOutlines(context, view, shapes, style, fine);
   if (visible.whole && style !== "ignored") strokeMarks(context, view, large);
   if (visible.centre && style !== "ignored") strokeCentres(context, view, large, style);
   for (const shape of large) {
@@ -125,13 +126,14 @@ function strokeOutlines(context, view, shapes, style, fine) {
   context.setLineDash(style === "prediction" ? [5, 4] : []);
   const colour = COLOURS[style];
   for (const shape of shapes) {
-    traceVisible(context, view, shape);
+    if (style === "ignored") traceKnown(context, view, shape.cap);
+    else traceVisible(context, view, shape);
     if (fine) strokeShaded(context, colour);
     else
       strokeCased(context, {
         colour,
         width: style === "ignored" ? 1 : 1.5,
-        casing: style === "ignored" ? null : CASING,
+        casing: CASING,
       });
   }
   context.setLineDash([]);

@@ -118,7 +118,7 @@ export class CircleTool {
   /** The selected cap, where the circle is its mark. @type {(circle: Circle) => Shape | null} */
   #markedBy(circle) {
     const { sole } = this.#state;
-    return sole && isMarkOf(circle, sole.cap) ? sole : null;
+    return sole && isMarkOf(circle, sole) ? sole : null;
   }
 
   /** Ends the drag as letting go would. */

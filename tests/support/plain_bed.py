@@ -1,0 +1,44 @@
+"""A bed whose caps lie where a test wants them: on a plain photo of 640 × 400, at once."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from fairyring.storage.choices import ImportAs
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.project import create_project
+
+SIZE = 640, 400
+
+
+def ring(cx: float, cy: float, r: float, *, cut: float = math.inf, count: int = 40) -> list[float]:
+    """A circle as a polygon, of which nothing is right of x = ``cut``."""
+    angles = [2 * math.pi * k / count for k in range(count)]
+    return [value for a in angles for value in (min(cx + r * math.cos(a), cut), cy + r * math.sin(a))]
+
+
+def make_bed(folder: Path, caps: Sequence[Sequence[list[float]]], *, said: bool = False) -> Path:
+    """A project with one photo for each list of outlines: annotations, or what a network ``said``."""
+    source, project = folder / "source", folder / "project"
+    source.mkdir()
+    images, annotations = [], []
+    for number, outlines in enumerate(caps, start=1):
+        name = f"bed_{number}.png"
+        cv2.imwrite(str(source / name), np.full((SIZE[1], SIZE[0], 3), 20 * number, np.uint8))
+        images.append({"id": number, "file_name": name, "width": SIZE[0], "height": SIZE[1]})
+        annotations += [
+            {"id": len(annotations) + k, "image_id": number, "category_id": 1, "segmentation": [outline]}
+            | ({"score": 0.9} if said else {})
+            for k, outline in enumerate(outlines, start=1)
+        ]
+    document = {"images": images, "annotations": annotations, "categories": [{"id": 1, "name": "mushroom"}]}
+    (source / "instances.json").write_text(json.dumps(document))
+    with create_project(project) as made:
+        import_paths(made, [source], as_=ImportAs.predictions if said else ImportAs.annotations, strict=True)
+    return project
