@@ -259,7 +259,8 @@ export class Editor {
     const { kept, conflicts, status } = this.#sync;
     const waiting = this.#unsaved;
     const { image } = this.#state;
-    if (image && image.id === this.#sync.image && image.status !== status) this.#state.image = { ...image, status };
+    if (image && image.id === this.#sync.image && image.status !== status)
+      this.#state.image = { ...image, status };
     this.#status({ connection: this.#transport.state, waiting, kept, conflicts: conflicts.length });
     this.#conflicts.update(conflicts, this.#state.image?.id ?? 0);
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))

@@ -106,6 +106,6 @@ def test_an_outline_that_runs_across_itself_is_told_of_and_keeps_its_points(tab:
     assert newest is not None
     [part] = newest["visible"]
     assert len(part) // 2 <= 8
-    placed = [point for point in zip(part[::2], part[1::2], strict=True)]
+    placed = list(zip(part[::2], part[1::2], strict=True))
     for point in ((600, 300), (600, 380), (520, 380), (530, 290)):
         assert pytest.approx(point, abs=1) in placed

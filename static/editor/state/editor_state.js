@@ -235,7 +235,8 @@ export class EditorState {
   /** Forgets what was proposed. */
   withdraw() {
     const drafts = this.drafts.clear();
-    if (drafts.length) this.signals.shapes.emit(drafts.flatMap(({ draft }) => this.items.get(draft.uid) ?? []));
+    if (drafts.length)
+      this.signals.shapes.emit(drafts.flatMap(({ draft }) => this.items.get(draft.uid) ?? []));
   }
 
   /** Commits what was proposed, as one step. */
@@ -243,7 +244,9 @@ export class EditorState {
     const drafts = this.drafts.clear();
     if (drafts.length === 0) return;
     this.commit(
-      drafts.flatMap(({ before, draft }) => (before && before.cap !== draft.cap ? [changed(before, draft)] : [])),
+      drafts.flatMap(({ before, draft }) =>
+        before && before.cap !== draft.cap ? [changed(before, draft)] : [],
+      ),
     );
     this.signals.overlay.emit();
   }
@@ -276,7 +279,11 @@ export class EditorState {
     this.#gesture.clear();
   }
 
-  /** A change made by a gesture is one of the cap as it was when the gesture began. @type {(change: Change) => Change} */
+  /**
+   * A change made by a gesture is one of the cap as it was when the gesture began.
+   *
+   * @type {(change: Change) => Change}
+   */
   #asBegun(change) {
     const { before } = change;
     const revision = before && this.#gesture.get(before.uid);
