@@ -15,7 +15,7 @@ from sqlalchemy import Connection, func, select
 from fairyring.model.photo import probe, read
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.choices import Only
-from fairyring.storage.contents import load_annotations, load_contents, load_predictions
+from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
 from fairyring.storage.errors import StoreError
@@ -34,6 +34,8 @@ from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
 JPEG_QUALITY = 97
+BESIDE_ANNOTATIONS = 1 << 31
+"""Added to the numbers of predictions that are exported beside annotations, which have lower ones."""
 
 
 class ExportReport(Struct, frozen=True, kw_only=True):
@@ -74,29 +76,25 @@ def export_coco(
     """
     with project.read() as connection, made_whole(out) as folder:
         images, left_out = _copy_photos(project, _images(connection, only), folder / "images", progress)
-        categories = {row.name: row.extra for row in connection.execute(_CATEGORIES)}
+        categories = connection.execute(_CATEGORIES).all()
         licenses: list[dict[str, Any]] = []
         head = {
             "info": _info(connection, project, only),
             "licenses": licenses,
-            "categories": [
-                category_entry(name, extra, number=number)
-                for number, (name, extra) in enumerate(categories.items(), start=1)
-            ],
+            "categories": [category_entry(row.name, row.extra, number=row.id) for row in categories],
             "images": [
-                image_entry(image, number=number, partial=_is_partial(image, only), licenses=licenses)
-                for number, image in enumerate(images, start=1)
+                image_entry(image, partial=_is_partial(image, only), licenses=licenses) for image in images
             ],
         }
         caps = _caps(connection, images, only=only, with_ignored=with_ignored, progress=progress)
-        numbers = {name: number for number, name in enumerate(categories, start=1)}
+        numbers = {row.name: row.id for row in categories}
         with (folder / "instances.json").open("wb") as file:
             count = write_document(file, head, _entries(caps, numbers))
     partial = sum(_is_partial(image, only) for image in images)
     return ExportReport(images=len(images), annotations=count, partial=partial, left_out=left_out)
 
 
-_CATEGORIES = select(schema.category.c.name, schema.category.c.extra).order_by(schema.category.c.id)
+_CATEGORIES = select(schema.category).order_by(schema.category.c.id)
 
 
 def _images(connection: Connection, only: Only) -> list[Image]:
@@ -118,37 +116,41 @@ def _is_partial(image: Image, only: Only) -> bool:
 
 def _caps(
     connection: Connection, images: list[Image], *, only: Only, with_ignored: bool, progress: Progress
-) -> Iterator[tuple[int, Image, Cap]]:
+) -> Iterator[tuple[Image, int, Cap]]:
+    """The images, and of each the caps with their numbers in the file."""
     load = _loader(connection, only)
-    for number, image in enumerate(images, start=1):
-        progress(number - 1, len(images), "Writing labels")
-        for cap in load(image):
+    for done, image in enumerate(images):
+        progress(done, len(images), "Writing labels")
+        for number, cap in load(image):
             if with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
-                yield number, image, cap
+                yield image, number, cap
 
 
-def _loader(connection: Connection, only: Only) -> Callable[[Image], list[Any]]:
+def _loader(connection: Connection, only: Only) -> Callable[[Image], list[tuple[int, Any]]]:
     if only == "predicted":
-        return lambda image: load_predictions(connection, image.id)
+        return lambda image: [(cap.id, cap) for cap in load_predictions(connection, image.id)]
     if only != "all":
-        return lambda image: load_annotations(connection, image.id)
+        return lambda image: load_numbered_annotations(connection, image.id)
 
-    def load(image: Image) -> list[Any]:
-        contents = load_contents(connection, image.id)
-        return contents.annotations if contents.annotations or image.status != "new" else contents.predictions
+    def load(image: Image) -> list[tuple[int, Any]]:
+        annotations = load_numbered_annotations(connection, image.id)
+        if annotations or is_complete(image.status):
+            return annotations
+        said = load_contents(connection, image.id).predictions
+        return [(BESIDE_ANNOTATIONS + cap.id, cap) for cap in said]
 
     return load
 
 
-def _entries(caps: Iterator[tuple[int, Image, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
-    for number, (of_image, image, cap) in enumerate(caps, start=1):
+def _entries(caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+    for image, number, cap in caps:
         size = image.width, image.height
         if isinstance(cap, Annotation):
             category = categories[cap.cap.category]
-            yield annotation_entry(cap, number=number, image=of_image, size=size, category=category)
+            yield annotation_entry(cap, number=number, size=size, category=category)
         else:
             category = categories[cap.category]
-            yield prediction_entry(cap, number=number, image=of_image, size=size, category=category)
+            yield prediction_entry(cap, number=number, size=size, category=category)
 
 
 def _info(connection: Connection, project: Project, only: Only) -> dict[str, Any]:

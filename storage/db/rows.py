@@ -114,14 +114,10 @@ def load_categories(connection: Connection) -> dict[str, int]:
     return {row.name: row.id for row in connection.execute(select(category.c.name, category.c.id))}
 
 
-def ensure_category(
-    connection: Connection, name: str, *, categories: dict[str, int], extra: dict[str, Any] | None = None
-) -> int:
+def ensure_category(connection: Connection, name: str, *, categories: dict[str, int]) -> int:
     """The id of a category, made if the project lacks it; ``categories`` is kept up to date."""
     if name not in categories:
-        result = connection.execute(
-            insert(category).values(name=name, extra=extra or {}).returning(category.c.id)
-        )
+        result = connection.execute(insert(category).values(name=name, extra={}).returning(category.c.id))
         categories[name] = result.scalar_one()
     return categories[name]
 

@@ -34,7 +34,7 @@ from fairyring.model.json_values import ValueRefusedError, flag, kept, shown, te
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.cap_validity import MAX_ORDER
 from fairyring.storage.errors import StoreError
-from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
+from fairyring.storage.formats.found import Found, FoundCap, FoundCategory, FoundImage, Problem
 from fairyring.storage.records import STATUSES, Cap, Status
 
 IMAGE_KEYS = {
@@ -69,7 +69,7 @@ def parse_coco(data: bytes, *, file: str) -> Found:
         file=file,
         images=[structs.replace(image, caps=caps.get(own, [])) for own, image in images.items()],
         problems=[Problem(file, fault.where, fault.reason) for fault in faults],
-        categories=_other_keys_of_categories(categories, faults),
+        categories=_categories(categories, faults),
     )
 
 
@@ -96,6 +96,7 @@ def _image(name: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults:
     return FoundImage(
         where=entry.where,
         file_name=name,
+        id=entry.id if isinstance(entry.id, int) else None,
         width=entry.width,
         height=entry.height,
         light=keys.get("light") if keys.get("light") in LIGHTS else None,
@@ -204,16 +205,15 @@ def _licenses(document: Document) -> dict[Id | None, Any]:
     return licenses
 
 
-def _other_keys_of_categories(
-    categories: dict[Id, dict[str, Any]], faults: list[Fault]
-) -> dict[str, dict[str, Any]]:
-    """The unknown keys of each category, by its name."""
-    others: dict[str, dict[str, Any]] = {}
+def _categories(categories: dict[Id, dict[str, Any]], faults: list[Fault]) -> dict[str, FoundCategory]:
+    """The categories by name; of several with one name the first."""
+    named: dict[str, FoundCategory] = {}
     for own, entry in categories.items():
         with Reported(f"category {shown(own)}", faults.append):
             name = name_of_category(entry)
-            others.setdefault(name, _kept(_others(entry, CATEGORY_KEYS), f"category {name}", faults))
-    return others
+            extra = _kept(_others(entry, CATEGORY_KEYS), f"category {name}", faults)
+            named.setdefault(name, FoundCategory(id=own if isinstance(own, int) else None, extra=extra))
+    return named
 
 
 def _kept(extra: dict[str, Any], where: str, faults: list[Fault]) -> dict[str, Any]:

@@ -25,11 +25,11 @@ KEYPOINTS = ["centre"]
 
 
 def annotation_entry(
-    annotation: Annotation, *, number: int, image: int, size: tuple[int, int], category: int
+    annotation: Annotation, *, number: int, size: tuple[int, int], category: int
 ) -> dict[str, Any]:
     """The entry of an annotation.
 
-    ``image`` and ``category`` are numbers within the file, ``size`` is the image's width and height.
+    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height.
     """
     cap = annotation.cap
     marked = cap.mark is not None
@@ -37,7 +37,8 @@ def annotation_entry(
     if isinstance(cap.mark, Circle | Ellipse):
         whole, centre = cap.mark, (cap.mark.cx, cap.mark.cy)
     entry = _geometry(cap.visible, cap.mark, whole, size=size)
-    entry |= {"image_id": image, "category_id": category, "iscrowd": int(cap.ignored), "marked": marked}
+    entry |= {"image_id": annotation.image, "category_id": category}
+    entry |= {"iscrowd": int(cap.ignored), "marked": marked}
     entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
     entry |= {"doubt": True} if cap.doubtful else {}
     entry |= {"ignored": True} if cap.ignored else {}
@@ -51,23 +52,22 @@ def annotation_entry(
 
 
 def prediction_entry(
-    prediction: Prediction, *, number: int, image: int, size: tuple[int, int], category: int
+    prediction: Prediction, *, number: int, size: tuple[int, int], category: int
 ) -> dict[str, Any]:
     """The entry of a prediction, with its score; the rest as for ``annotation_entry``."""
     entry = _geometry(prediction.visible, None, prediction.whole, size=size)
-    entry |= {"image_id": image, "category_id": category, "iscrowd": 0, "score": prediction.score}
+    entry |= {"image_id": prediction.image, "category_id": category, "iscrowd": 0}
+    entry |= {"score": prediction.score}
     entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
     return {"id": number} | prediction.extra | entry
 
 
-def image_entry(
-    image: Image, *, number: int, partial: bool, licenses: list[dict[str, Any]]
-) -> dict[str, Any]:
+def image_entry(image: Image, *, partial: bool, licenses: list[dict[str, Any]]) -> dict[str, Any]:
     """The entry of an image; its licence is added to ``licenses`` and named by number.
 
     ``partial``: nobody has said that the annotations are all its caps.
     """
-    entry: dict[str, Any] = {"id": number, "file_name": image.file_name}
+    entry: dict[str, Any] = {"id": image.id, "file_name": image.file_name}
     entry |= {"width": image.width, "height": image.height, "status": image.status}
     entry |= {"partial": True} if partial else {}
     known = {"light": image.light, "form": image.form, "split": image.split}

@@ -42,12 +42,23 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     extra: dict[str, Any] = field(default_factory=dict)
 
 
+class FoundCategory(Struct, frozen=True, kw_only=True):
+    """A category that a file lists, whether or not a cap is of it."""
+
+    id: int | None = None
+    """Its number in the file."""
+    extra: dict[str, Any] = field(default_factory=dict)
+    """Keys that are not known."""
+
+
 class FoundImage(Struct, frozen=True, kw_only=True):
     """An image in a file, with its caps."""
 
     where: str
     file_name: str
     """File name as written; only its base name counts."""
+    id: int | None = None
+    """Its number in the file."""
     width: int | None = None
     height: int | None = None
     light: str | None = None
@@ -65,7 +76,7 @@ class Found(Struct, frozen=True, kw_only=True):
     file: str
     images: list[FoundImage]
     problems: list[Problem]
-    categories: dict[str, dict[str, Any]] = field(default_factory=dict)
-    """Unknown keys of each category, by its name."""
+    categories: dict[str, FoundCategory] = field(default_factory=dict)
+    """By name, in the order of the file."""
     polygons: int = 0
     """How many polygons of labelme there are, which may be marks as well."""

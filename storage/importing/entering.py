@@ -7,7 +7,7 @@ from typing import Any
 from uuid import uuid4
 
 from msgspec import Struct, structs
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, Table, insert, select, update
 
 from fairyring.model.geometry.shapes import Fit, polygon_of_shape
 from fairyring.storage.change_sets import ChangeSets
@@ -15,8 +15,9 @@ from fairyring.storage.db import schema
 from fairyring.storage.db.bulk import insert_many
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.counters import recount
+from fairyring.storage.db.numbering import count_on, free_numbers
 from fairyring.storage.db.rows import ensure_category, load_categories, values_of_cap, values_of_fit
-from fairyring.storage.formats.found import FoundCap
+from fairyring.storage.formats.found import FoundCap, FoundCategory
 from fairyring.storage.images import sort_name
 from fairyring.storage.importing.cap_checks import content_number
 from fairyring.storage.importing.photos import Photo
@@ -42,9 +43,20 @@ class Entered(Struct, frozen=True, kw_only=True):
     known: int = 0
 
 
-def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
-    """Adds an image; returns it with its id."""
+def enter_photos(connection: Connection, photos: Mapping[str, Photo]) -> list[Photo]:
+    """Adds images, by their paths; returns them with their ids, which are those of their files where free."""
+    numbers = free_numbers(connection, schema.image, [photo.number for photo in photos.values()])
+    # Those with numbers first: the others are counted on from them.
+    entered = sorted(zip(photos.items(), numbers, strict=True), key=lambda item: item[1] is None)
+    made = [_enter_photo(connection, photo, path=path, number=number) for (path, photo), number in entered]
+    count_on(connection, schema.image)
+    return made
+
+
+def _enter_photo(connection: Connection, photo: Photo, *, path: str, number: int | None) -> Photo:
+    numbered = {} if number is None else {"id": number}
     statement = insert(schema.image).values(
+        **numbered,
         file_name=photo.file_name,
         sort_name=sort_name(photo.file_name),
         path=path,
@@ -58,8 +70,8 @@ def enter_photo(connection: Connection, photo: Photo, *, path: str) -> Photo:
         extra=photo.extra,
         added_at=now(),
     )
-    number = connection.execute(statement.returning(schema.image.c.id)).scalar_one()
-    return structs.replace(photo, id=number, status="new")
+    own = connection.execute(statement.returning(schema.image.c.id)).scalar_one()
+    return structs.replace(photo, id=own, status="new")
 
 
 def tell_more(connection: Connection, photo: Photo) -> None:
@@ -72,7 +84,7 @@ def enter_annotations(
     connection: Connection,
     labelled: Sequence[Labelled],
     *,
-    categories: Mapping[str, dict[str, Any]],
+    categories: Mapping[str, FoundCategory],
     user: str,
 ) -> Entered:
     """Adds annotations and their first journal rows, but for those whose uid is there already."""
@@ -93,14 +105,14 @@ def enter_annotations(
             values_of_cap(cap.cap, categories=ids)
             | values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"uid": uid, "image": photo.id, "revision": 1, "deleted": False, "extra": cap.extra}
-            | {"edited_by": user, "edited_at": time}
+            | {"edited_by": user, "edited_at": time, "id": cap.id}
         )
         edits.append(
             {"id": f"import-{uid}", "digest": "import", "annotation": uid, "image": photo.id, "base": 0}
             | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
             | {"change_set": numbers[photo.id]}
         )
-    insert_many(connection, schema.annotation, annotations)
+    _insert_numbered(connection, schema.annotation, annotations)
     insert_many(connection, schema.edit, edits)
     recount(connection, numbers)
     for image, number in numbers.items():
@@ -113,7 +125,7 @@ def enter_predictions(
     connection: Connection,
     labelled: Sequence[Labelled],
     *,
-    categories: Mapping[str, dict[str, Any]],
+    categories: Mapping[str, FoundCategory],
     run_id: int,
 ) -> Entered:
     """Adds a run's predictions, but for those that it holds already."""
@@ -132,8 +144,9 @@ def enter_predictions(
             values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
+            | {"id": cap.id}
         )
-    insert_many(connection, table, rows)
+    _insert_numbered(connection, table, rows)
     saw(connection, run_id=run_id, image_ids=[item.photo.id for item in labelled if item.photo.id])
     total = sum(len(item.caps) for item in labelled)
     return Entered(new=len(rows), known=total - len(rows))
@@ -148,16 +161,37 @@ def refused_as_prediction(cap: FoundCap) -> str | None:
     return None
 
 
+def _insert_numbered(
+    connection: Connection, table: Table, rows: Sequence[dict[str, Any]], *, lowest: int = 1
+) -> None:
+    """Adds rows under the ids that their files give them, where these are free."""
+    numbers = free_numbers(connection, table, [row["id"] for row in rows], lowest=lowest)
+    numbered = [row | {"id": number} for row, number in zip(rows, numbers, strict=True) if number is not None]
+    others = [
+        {name: value for name, value in row.items() if name != "id"}
+        for row, number in zip(rows, numbers, strict=True)
+        if number is None
+    ]
+    insert_many(connection, table, numbered)
+    count_on(connection, table)
+    insert_many(connection, table, others)
+
+
 def _pairs(labelled: Iterable[Labelled]) -> Iterator[tuple[Photo, FoundCap]]:
     return ((item.photo, cap) for item in labelled for cap in item.caps)
 
 
 def _category_ids(
-    connection: Connection, labelled: Iterable[Labelled], categories: Mapping[str, dict[str, Any]]
+    connection: Connection, labelled: Iterable[Labelled], categories: Mapping[str, FoundCategory]
 ) -> dict[str, int]:
+    """The ids of all categories by name, once those of the files and of their caps are entered."""
+    ids = load_categories(connection)
+    new = {name: found for name, found in categories.items() if name not in ids}
+    rows = [{"id": found.id, "name": name, "extra": found.extra} for name, found in new.items()]
+    _insert_numbered(connection, schema.category, rows, lowest=0)
     ids = load_categories(connection)
     for name in sorted({cap.cap.category for _, cap in _pairs(labelled)}):
-        ensure_category(connection, name, categories=ids, extra=categories.get(name, {}))
+        ensure_category(connection, name, categories=ids)
     return ids
 
 

@@ -125,6 +125,7 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
     if photo.id is None:
         return structs.replace(
             photo,
+            number=photo.number or image.id,
             light=image.light or photo.light or unsaid.light,
             form=image.form or photo.form or unsaid.form,
             split=image.split or photo.split,

@@ -26,6 +26,8 @@ class Photo(Struct, frozen=True, kw_only=True):
     sha256: str
     id: int | None = None
     """None until it is in the project."""
+    number: int | None = None
+    """The id that a file of labels calls a new one by."""
     source: Path | None = None
     """Path of a new photo; None for one of the project."""
     light: str | None = None
@@ -38,7 +40,7 @@ class Photo(Struct, frozen=True, kw_only=True):
 
 def photos_of_project(connection: Connection) -> dict[str, Photo]:
     """The photos of the project, by base name."""
-    columns = [schema.image.c[name] for name in Photo.__struct_fields__ if name != "source"]
+    columns = [schema.image.c[name] for name in Photo.__struct_fields__ if name not in ("source", "number")]
     return {row["file_name"]: Photo(**row) for row in connection.execute(select(*columns)).mappings()}
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from hashlib import sha256
-from typing import Any
 
 from msgspec import Struct, structs
 from sqlalchemy import Connection
@@ -12,13 +11,13 @@ from sqlalchemy import Connection
 from fairyring.storage.choices import KnownCaps
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import IMAGES
-from fairyring.storage.formats.found import Problem
+from fairyring.storage.formats.found import FoundCategory, Problem
 from fairyring.storage.importing.changing import edits_of, record
 from fairyring.storage.importing.comparing import Compared, compare, is_as_compared
 from fairyring.storage.importing.entering import (
     Labelled,
     enter_annotations,
-    enter_photo,
+    enter_photos,
     enter_predictions,
     tell_more,
 )
@@ -74,10 +73,8 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
     intake = parcel.intake
     photos = photos_of_project(connection)
     new = [photo for photo in intake.new_photos if not _is_known(photo, photos)]
-    for photo in new:
-        linked = str(photo.source and photo.source.resolve())
-        path = linked if parcel.link else f"{IMAGES}/{photo.file_name}"
-        photos[photo.file_name] = enter_photo(connection, photo, path=path)
+    by_path = {_path_of(photo, link=parcel.link): photo for photo in new}
+    photos |= {photo.file_name: photo for photo in enter_photos(connection, by_path)}
     for name in intake.seen:
         if intake.photos[name].id is not None and intake.photos[name] != photos[name]:
             tell_more(connection, intake.photos[name])
@@ -94,6 +91,11 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
         _set_statuses(connection, intake, photos, user=parcel.user)
     copies.move_in()
     return report
+
+
+def _path_of(photo: Photo, *, link: bool) -> str:
+    """As the project keeps it."""
+    return str(photo.source and photo.source.resolve()) if link else f"{IMAGES}/{photo.file_name}"
 
 
 def _store_annotations(
@@ -133,13 +135,12 @@ def _store_predictions(
     return structs.replace(report, predictions=entered.new, known=entered.known, run=run.id)
 
 
-def _categories(parcel: Parcel) -> dict[str, dict[str, Any]]:
-    """Unknown keys of the categories, by name."""
-    return {
-        name: extra
-        for document in parcel.sources.documents
-        for name, extra in document.found.categories.items()
-    }
+def _categories(parcel: Parcel) -> dict[str, FoundCategory]:
+    """The categories of all files by name; the first file's where several list one."""
+    named: dict[str, FoundCategory] = {}
+    for document in parcel.sources.documents:
+        named |= {name: each for name, each in document.found.categories.items() if name not in named}
+    return named
 
 
 def _set_statuses(connection: Connection, intake: Intake, photos: dict[str, Photo], *, user: str) -> None:

@@ -15,15 +15,15 @@ from fairyring.storage.records import Cap, Edit
 from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
-def test_ids_count_from_1_in_one_stable_order(beds, out, tmp_path):
+def test_images_and_their_caps_are_in_one_stable_order_with_ids_in_that_of_their_making(beds, out, tmp_path):
     store(beds, Cap(visible=[TRIANGLE]), Cap(visible=[SQUARE]), image=2)
     store(beds, Cap(visible=[SQUARE]), image=1)
     document = export(beds, out)
     assert [image["file_name"] for image in document["images"]] == ["bed_1.png", "bed_2.png"]
     assert [(a["id"], a["image_id"], a["uid"]) for a in document["annotations"]] == [
-        (1, 1, "1_0"),
-        (2, 2, "2_0"),
-        (3, 2, "2_1"),
+        (3, 1, "1_0"),
+        (1, 2, "2_0"),
+        (2, 2, "2_1"),
     ]
     assert [category["id"] for category in document["categories"]] == [1]
     export(beds, tmp_path / "again")

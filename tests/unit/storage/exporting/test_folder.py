@@ -26,7 +26,7 @@ def test_the_folder_holds_one_json_file_and_the_photos(beds, out):
         "instances.json",
     ]
     (image,) = document["images"]
-    assert (image["id"], image["file_name"], image["width"], image["height"]) == (1, "bed_10.png", 100, 80)
+    assert (image["id"], image["file_name"], image["width"], image["height"]) == (3, "bed_10.png", 100, 80)
     assert (out / "images/bed_10.png").read_bytes() == (beds.images / "bed_10.png").read_bytes()
 
 
@@ -94,7 +94,7 @@ def test_an_image_whose_file_is_another_photo_is_left_out_and_named(beds, out):
     assert [file.name for file in (out / "images").iterdir()] == [other]
     document = json.loads((out / "instances.json").read_text())
     assert [image["file_name"] for image in document["images"]] == [other]
-    assert [annotation["image_id"] for annotation in document["annotations"]] == [1]
+    assert [annotation["image_id"] for annotation in document["annotations"]] == [2]
 
 
 def test_where_every_photo_is_another_nothing_is_exported(beds, out):

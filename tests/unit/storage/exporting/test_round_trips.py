@@ -44,7 +44,7 @@ def test_predictions_exported_and_imported_again_are_the_same(mixed, out, tmp_pa
         import_paths(other, [out], as_="predictions")
         with other.read() as theirs, mixed.read() as ours:
             (mine,) = load_predictions(ours, 3)
-            (copy,) = load_predictions(theirs, 1)
+            (copy,) = load_predictions(theirs, 3)
     assert (copy.visible, copy.score, copy.whole, copy.centre) == (mine.visible, 0.5, mine.whole, mine.centre)
 
 
@@ -63,7 +63,7 @@ def test_extra_keys_and_licences_come_back(beds, tmp_path, out, write_coco):
     }
     assert document["categories"][0]["supercategory"] == "fungus"
     assert document["annotations"][0]["source"] == {"by": "me"}
-    assert document["annotations"][0]["id"] == 1
+    assert document["annotations"][0]["id"] == 77
     with create_project(tmp_path / "other") as other:
         import_paths(other, [out])
         again = export(other, tmp_path / "again")
@@ -104,8 +104,7 @@ def written_and_read(stored):
     """The caps as the entries of a file give them back; numbered to tell them apart."""
     annotations = [Annotation(uid=f"cap_{n}", image=1, revision=1, cap=cap) for n, cap in enumerate(stored)]
     entries = [
-        annotation_entry(a, number=n, image=1, size=(100, 80), category=1)
-        for n, a in enumerate(annotations, start=1)
+        annotation_entry(a, number=n, size=(100, 80), category=1) for n, a in enumerate(annotations, start=1)
     ]
     document = {
         "images": [{"id": 1, "file_name": "bed.png", "width": 100, "height": 80}],

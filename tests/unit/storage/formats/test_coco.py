@@ -9,7 +9,7 @@ from fairyring.model.coco.visible import outline_in
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 from fairyring.storage.formats.coco import parse_coco
-from fairyring.storage.formats.found import Problem
+from fairyring.storage.formats.found import FoundCategory, Problem
 
 SQUARE = [10, 10, 30, 10, 30, 30, 10, 30]
 
@@ -108,7 +108,7 @@ def test_unknown_keys_are_kept_and_known_ones_are_not_repeated():
     (image,) = found.images
     assert (image.light, image.form, image.split, image.extra) == ("dark", "h", "x", {"camera": 7})
     assert (image.width, image.height) == (None, None)
-    assert found.categories == {"mushroom": {"supercategory": "fungus"}}
+    assert found.categories == {"mushroom": FoundCategory(id=1, extra={"supercategory": "fungus"})}
 
 
 def test_a_licence_travels_with_its_image():
@@ -203,7 +203,7 @@ def test_two_images_of_one_base_name_are_not_mixed_up():
 
 def test_a_category_with_keys_that_cannot_be_kept_is_still_a_category():
     found = parse([{"segmentation": [SQUARE]}], categories=[{"id": 1, "name": "mushroom", "note": "\udfff"}])
-    assert found.categories == {"mushroom": {}}
+    assert found.categories == {"mushroom": FoundCategory(id=1)}
     assert len(found.images[0].caps) == 1
 
 
