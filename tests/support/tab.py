@@ -83,7 +83,11 @@ class Panel:
 
     @property
     def token(self) -> str:
-        return until(lambda: TOKEN.search(self.html), "a token").group(1)
+        # A busy machine takes its time; a server that dies meanwhile is not waited for.
+        found = until(lambda: TOKEN.search(self.html) or self.closed, "a token", within_s=6 * DEADLINE_S)
+        if found is self.closed:
+            raise found
+        return found.group(1)
 
     def uuid_of(self, label: str) -> str:
         """The input of this label."""
