@@ -44,8 +44,9 @@ class Server:
         self.process = subprocess.Popen([*FAIRYRING, *serve])
         deadline = time.monotonic() + START_S
         while not self._answers():
-            if self.process.poll() is not None or time.monotonic() > deadline:
-                raise ConnectionError(f"{self.project} could not be served.")
+            if (code := self.process.poll()) is not None or time.monotonic() > deadline:
+                ended = "no answer" if code is None else f"exit code {code}"
+                raise ConnectionError(f"{self.project} could not be served: {ended}.")
             time.sleep(0.05)
 
     def kill(self) -> None:

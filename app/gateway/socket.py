@@ -51,6 +51,9 @@ A_MEGABYTE = 2**20
 FRAME_MARGIN = 1024
 """Bytes by which a frame may pass the limit of a message, so that this socket can say so itself."""
 
+UNREADABLE = (msgspec.DecodeError, UnicodeError, RecursionError)
+"""What comes of a text that is no message: no JSON, half a character, a list in a list in a list …"""
+
 _incoming = msgspec.json.Decoder(Incoming)
 _outgoing = msgspec.json.Encoder()
 
@@ -83,7 +86,7 @@ async def _hello(socket: WebSocket) -> Hello | None:
     try:
         async with asyncio.timeout(HELLO_WITHIN_S):
             message = _incoming.decode(await socket.receive_text())
-    except (TimeoutError, WebSocketDisconnect, KeyError, msgspec.DecodeError):
+    except (TimeoutError, WebSocketDisconnect, KeyError, *UNREADABLE):
         return None
     return message if isinstance(message, Hello) else None
 
@@ -151,7 +154,7 @@ async def _handle(workspace: Workspace, session: Session, refits: Refits, text: 
     """Carries out one message; errors that a person can put right are shown, and the socket stays open."""
     try:
         message = _incoming.decode(text)
-    except msgspec.DecodeError as error:
+    except UNREADABLE as error:
         _refuse(session, text, reason=str(error))
         return
     await tell_errors(session, lambda: _carry_out(workspace, session, refits, message))
@@ -197,7 +200,7 @@ def _refuse(session: Session, text: str, *, reason: str) -> None:
     sentence = f"The server cannot read this: {reason}."
     try:
         message = msgspec.json.decode(text, type=_Unreadable)
-    except msgspec.DecodeError:
+    except UNREADABLE:
         message = _Unreadable()
     edits = message.edits + message.statuses
     if edits:

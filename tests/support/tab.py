@@ -124,9 +124,15 @@ class Tab:
     def send(self, message: Incoming) -> None:
         self.editor.send(msgspec.json.encode(message).decode())
 
-    def expect(self, kind: type[Kind], where: Callable[[Kind], bool] = lambda _: True) -> Kind:
+    def expect(
+        self,
+        kind: type[Kind],
+        where: Callable[[Kind], bool] = lambda _: True,
+        *,
+        within_s: float = DEADLINE_S,
+    ) -> Kind:
         """The next message of a kind; what comes before it is kept in ``received``."""
-        deadline = time.monotonic() + DEADLINE_S
+        deadline = time.monotonic() + within_s
         while True:
             message = msgspec.json.decode(self.editor.recv(deadline - time.monotonic()), type=Outgoing)
             self.received.append(message)
