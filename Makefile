@@ -13,7 +13,7 @@ PYTHON_READY := .venv/python-$(IDENTITY)
 PRODUCT := .venv/product-$(NEEDS)
 DEVELOPMENT := .venv/development-$(NEEDS)
 
-.PHONY: demo test bench pictures lint clean
+.PHONY: demo test faults bench pictures lint clean
 
 demo: $(PRODUCT)
 	@$(BIN)/fairyring demo demo --serve --port $(PORT)
@@ -22,6 +22,13 @@ test: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/node --test --test-reporter=dot "tests/js/**/*.test.js"
 	$(BIN)/python -m pytest $(ARGS)
+
+# Kills, full disks, locks, cut lines, and inputs that nobody means: many minutes, and with LONG=1 well over an hour.
+# A short form of it is part of `make test`.
+faults: $(DEVELOPMENT)
+	@$(BIN)/python -m fairyring.app.bench.browser.chromium
+	FAULTS=$(if $(LONG),long,usual) $(BIN)/python -m pytest --log-cli-level=INFO --log-disable=alembic.runtime.migration \
+		tests/faults tests/browser/test_nothing_is_lost.py tests/unit/app/gateway/test_read_only.py $(ARGS)
 
 bench: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium

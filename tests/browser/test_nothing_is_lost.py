@@ -77,6 +77,20 @@ def test_an_edit_made_offline_survives_the_tab(
     assert len(live_caps(project)) == 1
 
 
+def test_a_browser_that_is_closed_at_once_after_an_edit_loses_nothing(
+    server: Server, open_tab: Callable[..., Tab], project: Path
+) -> None:
+    tab = open_tab(server)
+    draw_circle(tab, (40.0, 30.0), 14.0)
+    context = tab.page.context
+    tab.page.close()
+    second = Tab(context.new_page())
+    second.enter(server.url, name="Ada")
+    second.wait_for("window.fairyring.state.shapes.length === 1")
+    second.saved()
+    assert len(live_caps(project)) == 1
+
+
 def test_what_one_person_draws_appears_at_the_others(server: Server, open_tab: Callable[..., Tab]) -> None:
     ada, ben = open_tab(server, name="Ada"), open_tab(server, name="Ben")
     ben.page.bring_to_front()
