@@ -16,6 +16,7 @@ export default {
         { "name": "select", "keys": ["V"], "words": "Select and edit", "label": "Select" },
         { "name": "polygon", "keys": ["W"], "words": "Draw a visible outline", "label": "Outline" },
         { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
+        { "name": "rim", "keys": ["R"], "words": "Redraw a stretch of a rim, add to a cap, cut from it", "label": "Rim" },
         { "name": "pan", "keys": ["G"], "words": "Move the view", "label": "Pan" },
         { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn" },
         { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done (Ctrl+Z brings it back), then deselect" },
@@ -92,6 +93,7 @@ export default {
     { "gesture": "Double click", "words": "Zoom to the cap" },
     { "gesture": "Drag a vertex", "words": "Move it; a dense outline follows (Alt: this vertex only)" },
     { "gesture": "Drag an edge", "words": "Put a vertex in" },
-    { "gesture": "Alt-click a vertex", "words": "Take it out" }
+    { "gesture": "Alt-click a vertex", "words": "Take it out" },
+    { "gesture": "Ctrl-drag along a rim", "words": "Redraw that stretch (Alt: the other side)" }
   ]
 };

@@ -41,6 +41,19 @@ export function pick(shapes, point, reach) {
   return found;
 }
 
+/**
+ * Those whose outline passes within `reach` of the point, the nearest first.
+ *
+ * @type {(shapes: Shape[], point: Point, reach: number) => Shape[]}
+ */
+export function withRimNear(shapes, point, reach) {
+  return shapes
+    .map((shape) => ({ shape, distance: distanceTo(shape, point, reach) }))
+    .filter(({ distance }) => distance <= reach)
+    .sort((a, b) => a.distance - b.distance)
+    .map(({ shape }) => shape);
+}
+
 /** @type {(shape: Shape) => number} */
 function rank(shape) {
   return measure(shape.cap).area * (isPrediction(shape) ? ANOTHER_CAP : 1);

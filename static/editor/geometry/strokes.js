@@ -46,3 +46,40 @@ export function distanceToEdge([x, y], [ax, ay], [bx, by]) {
   const along = length === 0 ? 0 : Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / length));
   return Math.hypot(ax + along * dx - x, ay + along * dy - y);
 }
+
+/**
+ * Where a-b crosses c-d, a point on the line counting as beside it; null where it does not.
+ *
+ * @type {(a: Point, b: Point, c: Point, d: Point) => Point | null}
+ */
+export function crossingOf(a, b, c, d) {
+  const [from, to] = [sideOf(c, d, a), sideOf(c, d, b)];
+  if (from > 0 === to > 0 || sideOf(a, b, c) > 0 === sideOf(a, b, d) > 0) return null;
+  const along = from / (from - to);
+  return [a[0] + along * (b[0] - a[0]), a[1] + along * (b[1] - a[1])];
+}
+
+/**
+ * Those points of a line from which it strays no farther than `tolerance`, as Douglas and Peucker choose them;
+ * its ends stay.
+ *
+ * @param {Point[]} points  at least two
+ * @param {number} tolerance
+ * @returns {Point[]}
+ */
+export function simplified(points, tolerance) {
+  const kept = new Set([0, points.length - 1]);
+  const pieces = [[0, points.length - 1]];
+  for (let piece = pieces.pop(); piece; piece = pieces.pop()) {
+    const [first, last] = piece;
+    let [farthest, best] = [-1, tolerance];
+    for (let i = first + 1; i < last; i++) {
+      const away = distanceToEdge(points[i], points[first], points[last]);
+      if (away > best) [farthest, best] = [i, away];
+    }
+    if (farthest < 0) continue;
+    kept.add(farthest);
+    pieces.push([first, farthest], [farthest, last]);
+  }
+  return points.filter((_, i) => kept.has(i));
+}

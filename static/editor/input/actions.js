@@ -77,6 +77,7 @@ export const ACTIONS = {
   select: ({ use }) => use("select"),
   polygon: ({ use }) => use("polygon"),
   circle: ({ use }) => use("circle"),
+  rim: ({ use }) => use("rim"),
   pan: ({ use }) => use("pan"),
 };
 

@@ -60,7 +60,8 @@ export class Pointer {
     const box = this.#host.getBoundingClientRect();
     this.at = [event.clientX - box.left, event.clientY - box.top];
     const { shiftKey: shift, altKey: alt } = event;
-    return { screen: this.at, image: toImage(this.#state.viewport.view, ...this.at), shift, alt };
+    const image = toImage(this.#state.viewport.view, ...this.at);
+    return { screen: this.at, image, shift, alt, ctrl: event.ctrlKey || event.metaKey };
   }
 
   /** @type {(event: PointerEvent) => void} */

@@ -7,6 +7,7 @@
 import { CircleTool } from "./tools/circle.js";
 import { panTool } from "./tools/pan.js";
 import { PolygonTool } from "./tools/polygon.js";
+import { RimTool } from "./tools/rim.js";
 import { SelectTool } from "./tools/select.js";
 
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
@@ -35,10 +36,12 @@ export class Toolbox {
     this.#changed = changed;
     this.#say = say;
     this.#polygon = new PolygonTool(state, () => this.use("select"));
+    const rim = new RimTool(state, say);
     this.#tools = {
-      select: new SelectTool(state, say),
+      select: new SelectTool(state, { say, rim }),
       polygon: this.#polygon,
       circle: new CircleTool(state),
+      rim,
       pan: panTool(state),
     };
     this.tool = this.#tools.select;

@@ -7,7 +7,7 @@
 
 import { joinedAll } from "../geometry/bounds.js";
 import { placedWhole } from "../geometry/caps.js";
-import { pick, within } from "../geometry/hit.js";
+import { pick, within, withRimNear } from "../geometry/hit.js";
 import { boundsOf, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
 import { changed } from "./changes.js";
 import { Drafts } from "./drafts.js";
@@ -148,6 +148,16 @@ export class EditorState {
   at([x, y], reach) {
     const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
     return pick(this.#visibleOf(this.items.near(around)), [x, y], reach);
+  }
+
+  /**
+   * The visible items whose outline passes within `reach` of a point, the nearest first.
+   *
+   * @type {(point: Point, reach: number) => Shape[]}
+   */
+  rimsNear([x, y], reach) {
+    const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
+    return withRimNear(this.#visibleOf(this.items.near(around)), [x, y], reach);
   }
 
   /** The visible items that lie wholly in the rectangle. @type {(bounds: Bounds) => Shape[]} */

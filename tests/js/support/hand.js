@@ -5,7 +5,7 @@ import { IMAGE } from "./state.js";
 /** @typedef {import("../../../static/editor/state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("../../../static/editor/input/tools/tool.js").Press} Press */
 /** @typedef {import("../../../static/editor/input/tools/tool.js").Tool} Tool */
-/** @typedef {{alt?: boolean, shift?: boolean}} Held */
+/** @typedef {{alt?: boolean, shift?: boolean, ctrl?: boolean}} Held */
 
 /**
  * A hand that uses a tool, at points of the image; the window shows it pixel by pixel.
@@ -15,8 +15,11 @@ import { IMAGE } from "./state.js";
  */
 export function handOf(state, tool) {
   state.viewport.resize({ width: IMAGE.width + 24, height: IMAGE.height + 24 });
-  const press = (/** @type {Point} */ image, /** @type {Held} */ { alt = false, shift = false } = {}) => {
-    return { screen: toScreen(state.viewport.view, ...image), image, alt, shift };
+  const press = (
+    /** @type {Point} */ image,
+    /** @type {Held} */ { alt = false, shift = false, ctrl = false } = {},
+  ) => {
+    return { screen: toScreen(state.viewport.view, ...image), image, alt, shift, ctrl };
   };
   const hand = {
     hover: (/** @type {Point} */ at) => tool.hover(press(at)),
@@ -29,10 +32,10 @@ export function handOf(state, tool) {
       hand.up(at, held);
     },
     /** Presses at the first point, and lets go at the last. */
-    stroke(/** @type {Point[]} */ way) {
-      hand.down(way[0]);
+    stroke(/** @type {Point[]} */ way, /** @type {Held} */ held = {}) {
+      hand.down(way[0], held);
       hand.drag(...way.slice(1));
-      hand.up(way[way.length - 1]);
+      hand.up(way[way.length - 1], held);
     },
     double: (/** @type {Point} */ at) => tool.double?.(press(at)),
   };

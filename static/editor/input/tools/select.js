@@ -9,22 +9,21 @@ import { hundredths, insideCap } from "../../geometry/caps.js";
 import { HANDLE_GAP_PX, handlesAreApart, movedHandle, nearestHandle } from "../../geometry/handles.js";
 import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
-import { insertedVertices, nearestEdges, removedVertices } from "../../geometry/vertices.js";
+import { insertedVertices, nearestEdges } from "../../geometry/vertices.js";
 import { toImage } from "../../geometry/view.js";
-import { changed } from "../../state/changes.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
+import { VertexRemoval } from "./vertex_removal.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Point} Point */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("./rim.js").RimTool} RimTool */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
 /** How far along the outline, in CSS pixels, a dragged vertex pulls its neighbours. */
 const PULL_PX = 16;
-/** So near to where a vertex was taken out, CSS pixels, Delete still means vertices and never the cap. */
-const STILL_HERE_PX = 30;
 
 /**
  * What the press has taken hold of.
@@ -32,6 +31,7 @@ const STILL_HERE_PX = 30;
  * @typedef {{kind: "handle", shape: Shape, handle: Handle, pull: number}
  *   | {kind: "shape", shapes: Shape[]}
  *   | {kind: "view"}
+ *   | {kind: "rim"}
  *   | {kind: "band", to: Point}} Grip
  */
 
@@ -48,33 +48,31 @@ export class SelectTool {
   #last = [0, 0];
   /** @type {Handle | null} */
   #under = null;
-  /**
-   * Where a vertex was taken out, and of which cap, while the pointer is still about there.
-   *
-   * @type {{at: Point, uid: string} | null}
-   */
-  #removed = null;
   /** @type {Point} */
   #at = [0, 0];
   /** A handle that was dragged stays active for the arrow keys until another is pointed at. */
   #keepsActive = false;
   #state;
-  #say;
+  #rim;
+  #removal;
 
   /**
    * @param {EditorState} state
-   * @param {(text: string) => void} say
+   * @param {Object} rest
+   * @param {(text: string) => void} rest.say
+   * @param {RimTool} rest.rim  what Ctrl and a drag do
    */
-  constructor(state, say) {
+  constructor(state, { say, rim }) {
     this.#state = state;
-    this.#say = say;
+    this.#rim = rim;
+    this.#removal = new VertexRemoval(state, say);
   }
 
   /** @type {(press: Press) => void} */
   hover(press) {
     const state = this.#state;
     this.#at = press.screen;
-    if (this.#removed && apart(this.#removed.at, press.screen) > STILL_HERE_PX) this.#removed = null;
+    this.#removal.moved(press.screen);
     const { selection, sole } = state;
     const handle = sole && this.#handleAt(sole, press);
     this.#under = handle;
@@ -125,6 +123,10 @@ export class SelectTool {
   #gripAt(press) {
     const { selected, sole } = this.#state;
     if (press.shift) return { kind: "band", to: press.image };
+    if (press.ctrl) {
+      this.#rim.down(press);
+      return { kind: "rim" };
+    }
     if (sole) {
       const handle = this.#handleAt(sole, press);
       if (handle) return { kind: "handle", shape: sole, handle, pull: this.#pixels(PULL_PX) };
@@ -144,6 +146,7 @@ export class SelectTool {
     const grip = this.#grip;
     if (!start || !grip) return;
     this.#at = press.screen;
+    if (grip.kind === "rim") return this.#rim.drag(press);
     if (this.#moved && this.#hasLost(grip)) {
       this.#grip = null;
       return;
@@ -161,7 +164,11 @@ export class SelectTool {
     this.#last = press.screen;
   }
 
-  /** Whether something else, a key, has committed or taken back what is being dragged. @type {(grip: Grip) => boolean} */
+  /**
+   * Whether something else, a key, has committed or taken back what is being dragged.
+   *
+   * @type {(grip: Grip) => boolean}
+   */
   #hasLost(grip) {
     if (grip.kind !== "handle" && grip.kind !== "shape") return false;
     const shapes = grip.kind === "handle" ? [grip.shape] : grip.shapes;
@@ -187,7 +194,8 @@ export class SelectTool {
   up(press) {
     const grip = this.#grip;
     if (!grip) return;
-    if (this.#moved) {
+    if (grip.kind === "rim") this.#rim.up(press);
+    else if (this.#moved) {
       if (grip.kind === "band") this.#selectBand(grip);
       else this.#state.commitDrafts();
     } else if (grip.kind === "handle" && press.alt) {
@@ -226,33 +234,21 @@ export class SelectTool {
     return { x0: Math.min(x, to[0]), y0: Math.min(y, to[1]), x1: Math.max(x, to[0]), y1: Math.max(y, to[1]) };
   }
 
-  /**
-   * Takes the vertex under the pointer out, where it can be told from its neighbours. Pressed once more at the
-   * same place it takes out what is there now, and never the cap.
-   */
+  /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
   back() {
     const { sole } = this.#state;
     if (this.#grip) return true;
     if (!sole) return false;
     const apart = handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX));
-    if (apart && this.#removeVertex(this.#under)) return true;
-    if (this.#removed?.uid !== sole.uid) return false;
-    this.#say("A point was taken out here. To delete the cap, move the pointer away first.");
-    return true;
+    return (apart && this.#removeVertex(this.#under)) || this.#removal.keepsCap();
   }
 
   /** @type {(handle: Handle | null) => boolean} */
   #removeVertex(handle) {
-    const { selection, sole } = this.#state;
-    if (!sole || handle?.kind !== "vertex") return false;
-    const cap = removedVertices(sole.cap, handle.vertices);
-    selection.activate(null);
-    if (cap) this.#state.commit([changed(sole, { ...sole, cap })]);
-    else this.#say("An outline needs three points. To delete the cap, move the pointer away first.");
-    const { sole: now, viewport } = this.#state;
-    this.#removed = now && { at: this.#at, uid: now.uid };
+    if (!this.#removal.remove(handle, this.#at)) return false;
+    const { sole, viewport } = this.#state;
     const here = toImage(viewport.view, ...this.#at);
-    this.#under = now && nearestHandle(now.cap, here, this.#pixels(GRAB_PX));
+    this.#under = sole && nearestHandle(sole.cap, here, this.#pixels(GRAB_PX));
     return true;
   }
 
@@ -263,12 +259,14 @@ export class SelectTool {
 
   /** Ends the drag as letting go would. */
   leave() {
-    this.#grip = this.#removed = null;
+    this.#grip = null;
+    this.#removal.forget();
+    this.#rim.leave();
     this.#state.commitDrafts();
   }
 
   cancel() {
-    const busy = this.#grip !== null && this.#moved;
+    const busy = this.#rim.cancel() || (this.#grip !== null && this.#moved);
     this.#grip = null;
     this.#state.withdraw();
     this.#state.signals.overlay.emit();
@@ -287,7 +285,9 @@ export class SelectTool {
   }
 
   /** @type {import("../../render/overlay.js").Sketch} */
-  sketch = (context, { scale, x, y }) => {
+  sketch = (context, view) => {
+    const { scale, x, y } = view;
+    if (this.#grip?.kind === "rim") return this.#rim.sketch(context, view);
     if (this.#grip?.kind !== "band" || !this.#moved) return false;
     const bounds = this.#bandBounds(this.#grip);
     const [left, top] = [bounds.x0 * scale + x, bounds.y0 * scale + y];

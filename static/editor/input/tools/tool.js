@@ -12,6 +12,7 @@
  * @property {Point} image
  * @property {boolean} shift
  * @property {boolean} alt
+ * @property {boolean} ctrl  Ctrl, or the Command key
  */
 
 /**

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
+import { RimTool } from "../../../../static/editor/input/tools/rim.js";
 import { SelectTool } from "../../../../static/editor/input/tools/select.js";
 import { deleteSelected } from "../../../../static/editor/state/edits.js";
 import { capOf, prediction } from "../../support/caps.js";
@@ -17,7 +18,8 @@ function selecting(visible = HEXAGON, extra = {}) {
   const { state, committed } = openState({ shapes: [storedShape("u", capOf(visible))], ...extra });
   /** @type {string[]} */
   const said = [];
-  const tool = new SelectTool(state, (text) => void said.push(text));
+  const say = (/** @type {string} */ text) => void said.push(text);
+  const tool = new SelectTool(state, { say, rim: new RimTool(state, say) });
   const hand = handOf(state, tool);
   state.select(["u"]);
   /** What the key does: the tool is asked first. */

@@ -1,0 +1,121 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+
+import { areaOfRing, polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
+import { RimTool } from "../../../../static/editor/input/tools/rim.js";
+import { SelectTool } from "../../../../static/editor/input/tools/select.js";
+import { capOf, prediction } from "../../support/caps.js";
+import { handOf } from "../../support/hand.js";
+import { openState, storedShape } from "../../support/state.js";
+
+/** @typedef {import("../../../../static/editor/protocol.js").Point} Point */
+
+const ROUND = polygonOfCircle({ kind: "circle", cx: 300, cy: 300, r: 80 });
+const BESIDE = polygonOfCircle({ kind: "circle", cx: 600, cy: 300, r: 80 });
+
+/** An arc around (300, 300), with its ends on the rim of the cap there. @type {(radius: number) => Point[]} */
+function overQuarter(radius) {
+  const at = (/** @type {number} */ degrees, /** @type {number} */ r) => {
+    const angle = (degrees * Math.PI) / 180;
+    return /** @type {Point} */ ([300 + r * Math.cos(angle), 300 + r * Math.sin(angle)]);
+  };
+  const way = Array.from({ length: 31 }, (_, i) => at(3 * i, radius));
+  return [at(0, 80), ...way, at(90, 80)];
+}
+
+const ADDED = (Math.PI / 4) * (100 ** 2 - 80 ** 2);
+
+/** @type {(visible: number[][]) => number} */
+const area = (visible) => visible.reduce((sum, ring) => sum + areaOfRing(ring), 0);
+
+function redrawing() {
+  const { state, committed } = openState({
+    shapes: [storedShape("round", capOf(ROUND)), storedShape("beside", capOf(BESIDE))],
+    predictions: [prediction(7, [ROUND.map((value, i) => (i % 2 ? value + 500 : value))])],
+  });
+  /** @type {string[]} */
+  const said = [];
+  const say = (/** @type {string} */ text) => void said.push(text);
+  const tool = new RimTool(state, say);
+  const made = () => committed.flat().map(({ after }) => after);
+  return { state, committed, said, say, tool, hand: handOf(state, tool), made };
+}
+
+test("a stroke outside the rim adds to the cap whose rim it begins on, in one step, and selects it", () => {
+  const { state, committed, hand, made } = redrawing();
+  hand.stroke(overQuarter(100));
+  const [after] = made();
+  assert.deepEqual([committed.length, after.uid, [...state.selection.uids]], [1, "round", ["round"]]);
+  assert.ok(Math.abs(area(after.cap.visible) - area([ROUND]) - ADDED) < 60);
+});
+
+test("a selected cap is meant before others, but not where the stroke is far from it", () => {
+  const { state, hand, made } = redrawing();
+  state.select(["beside"]);
+  hand.stroke(overQuarter(100));
+  assert.deepEqual(
+    made().map(({ uid }) => uid),
+    ["round"],
+  );
+});
+
+test("a prediction that is redrawn becomes an annotation that started from it", () => {
+  const { state, hand, made } = redrawing();
+  hand.stroke(overQuarter(100).map(([x, y]) => /** @type {Point} */ ([x, y + 500])));
+  const [after] = made();
+  assert.deepEqual([after.cap.prediction, after.score, [...state.selection.uids]], [7, null, [after.uid]]);
+});
+
+test("a stroke that meets no rim changes nothing and says what a stroke does", () => {
+  const { hand, made, said } = redrawing();
+  hand.stroke(overQuarter(100).map(([x, y]) => /** @type {Point} */ ([x + 150, y + 150])));
+  assert.deepEqual([made(), said.length], [[], 1]);
+});
+
+test("a stroke that begins beside a cap and runs through it cuts it, though it is not selected", () => {
+  const { hand, made } = redrawing();
+  hand.stroke(Array.from({ length: 26 }, (_, i) => /** @type {Point} */ ([260, 180 + 10 * i])));
+  const [after] = made();
+  const angle = Math.acos(0.5);
+  const segment = 80 ** 2 * (angle - Math.sin(angle) / 2);
+  assert.ok(Math.abs(area(after.cap.visible) - (area([ROUND]) - segment)) < 40);
+});
+
+test("a click selects the cap that is there", () => {
+  const { state, hand, made } = redrawing();
+  hand.click([600, 300]);
+  assert.deepEqual([[...state.selection.uids], made()], [["beside"], []]);
+});
+
+test("undo while a stroke is drawn is about the stroke; another tool ends it as letting go does", () => {
+  const { tool, hand, made } = redrawing();
+  const [first, ...way] = overQuarter(100);
+  hand.down(first);
+  hand.drag(...way.slice(0, 10));
+  assert.equal(tool.undo(), true);
+  hand.drag(...way.slice(10));
+  hand.up(way[way.length - 1]);
+  assert.deepEqual([made(), tool.undo()], [[], false]);
+  hand.down(first);
+  hand.drag(...way);
+  tool.leave();
+  assert.equal(made().length, 1);
+});
+
+test("Ctrl and a drag do the same with the tool in hand that selects", () => {
+  const { state, say, tool, made } = redrawing();
+  const hand = handOf(state, new SelectTool(state, { say, rim: tool }));
+  hand.stroke(overQuarter(100), { ctrl: true });
+  const [after] = made();
+  assert.ok(Math.abs(area(after.cap.visible) - area([ROUND]) - ADDED) < 60);
+});
+
+test("the new rim has as many points as the eye tells apart, not as many as the hand made", () => {
+  const { hand, made } = redrawing();
+  const way = overQuarter(100).flatMap((at, i, all) => {
+    const next = all[Math.min(i + 1, all.length - 1)];
+    return [at, /** @type {Point} */ ([(at[0] + next[0]) / 2, (at[1] + next[1]) / 2])];
+  });
+  hand.stroke(way);
+  assert.ok(made()[0].cap.visible[0].length / 2 < (3 / 4) * (ROUND.length / 2) + 16);
+});
