@@ -313,7 +313,7 @@ export class Editor {
     if (this.#project !== project) {
       this.#project = project;
       this.#drawings.use(project);
-      this.#sync.use(await openOutbox(project));
+      this.#sync.use(await openOutbox(project, () => this.#sync.adopted()));
     }
     this.#sync.resume();
   }

@@ -14,6 +14,7 @@ import { Outbox, isOfCap } from "./outbox.js";
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Status} Status */
+/** @typedef {import("../state/changes.js").Change} Change */
 /** @typedef {import("../state/history.js").Move} Move */
 /** @typedef {import("../state/store.js").Store} Store */
 
@@ -103,10 +104,25 @@ export class Local {
     this.confirmed.statuses.set(image, status);
     const all = [...this.confirmed.deletedOf(image), ...annotations];
     const shapes = new Map(all.map((known) => [known.uid, shapeOfAnnotation(known)]));
-    for (const edit of this.outbox.edits()) {
-      if (edit.image === image && isOfCap(edit)) overlay(shapes, edit);
-    }
+    this.#overlay(shapes);
     this.store.replace([...shapes.values()]);
+  }
+
+  /** What the unacknowledged edits change of what is shown. @returns {Change[]} */
+  unshown() {
+    const shapes = new Map(this.store.all().map((shape) => [shape.uid, shape]));
+    this.#overlay(shapes);
+    return [...shapes.values()].flatMap((after) => {
+      const before = this.store.get(after.uid);
+      return before === after ? [] : { before, after };
+    });
+  }
+
+  /** @type {(shapes: Map<string, Shape>) => void} */
+  #overlay(shapes) {
+    for (const edit of this.outbox.edits()) {
+      if (edit.image === this.image && isOfCap(edit)) overlay(shapes, edit);
+    }
   }
 }
 

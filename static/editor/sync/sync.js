@@ -82,6 +82,12 @@ export class Sync {
     this.#local.outbox = outbox;
   }
 
+  /** The outbox holds edits now that another tab had left. */
+  adopted() {
+    this.#apply(this.#local.unshown());
+    this.pump();
+  }
+
   /** The connection is up (again): whatever was in flight may be lost, so send it once more. */
   resume() {
     this.#flying.clear();

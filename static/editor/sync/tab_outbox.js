@@ -12,9 +12,15 @@ import { keysWith } from "./stored_edits.js";
 import { lock } from "./tab_lock.js";
 
 const ROOT = "fairyring:outbox:";
+/** A page that is left lets go of its lock a moment after the next one has come. */
+const LEAVING_MS = 1500;
 
-/** @type {(project: string) => Promise<Outbox>} */
-export async function openOutbox(project) {
+/**
+ * @param {string} project
+ * @param {() => void} adopted  edits of a page that was just being left were taken over later
+ * @returns {Promise<Outbox>}
+ */
+export async function openOutbox(project, adopted) {
   const storage = browserStorage();
   const root = `${ROOT}${project}:`;
   const own = `${root}${await ownName(root)}:`;
@@ -22,7 +28,8 @@ export async function openOutbox(project) {
   const others = new Set(keysWith(storage, root).map((key) => key.slice(0, key.lastIndexOf(":") + 1)));
   others.delete(own);
   for (const prefix of others) {
-    if (await abandoned(prefix)) outbox.adopt(prefix);
+    if (await abandoned(prefix, { ifAvailable: true })) outbox.adopt(prefix);
+    else void adoptLater(outbox, prefix).then((late) => late && adopted());
   }
   return outbox;
 }
@@ -36,15 +43,22 @@ export async function openOutbox(project) {
  */
 async function ownName(root) {
   const remembered = sessionStorage.getItem(root);
-  if (remembered && (await lock(`${root}${remembered}:`))) return remembered;
+  if (remembered && (await lock(`${root}${remembered}:`, { wait_ms: LEAVING_MS }))) return remembered;
   const name = newId();
   sessionStorage.setItem(root, name);
   await lock(`${root}${name}:`);
   return name;
 }
 
-/** @type {(prefix: string) => Promise<boolean>} */
-async function abandoned(prefix) {
+/** @type {(outbox: Outbox, prefix: string) => Promise<boolean>} */
+async function adoptLater(outbox, prefix) {
+  const left = await abandoned(prefix, { signal: AbortSignal.timeout(LEAVING_MS) });
+  if (left) outbox.adopt(prefix);
+  return left;
+}
+
+/** @type {(prefix: string, how: LockOptions) => Promise<boolean>} */
+async function abandoned(prefix, how) {
   if (!navigator.locks) return true;
-  return navigator.locks.request(prefix, { ifAvailable: true }, (taken) => taken !== null);
+  return navigator.locks.request(prefix, how, (taken) => taken !== null).catch(() => false);
 }
