@@ -28,7 +28,7 @@ export async function openOutbox(project, adopted) {
   const others = new Set(keysWith(storage, root).map((key) => key.slice(0, key.lastIndexOf(":") + 1)));
   others.delete(own);
   for (const prefix of others) {
-    if (await abandoned(prefix, { ifAvailable: true })) outbox.adopt(prefix);
+    if (await abandoned(prefix)) outbox.adopt(prefix);
     else void adoptLater(outbox, prefix).then((late) => late && adopted());
   }
   return outbox;
@@ -50,15 +50,20 @@ async function ownName(root) {
   return name;
 }
 
-/** @type {(outbox: Outbox, prefix: string) => Promise<boolean>} */
+/**
+ * Looks once more when whoever was leaving has left. One that is only being loaded anew has its lock again.
+ *
+ * @type {(outbox: Outbox, prefix: string) => Promise<boolean>}
+ */
 async function adoptLater(outbox, prefix) {
-  const left = await abandoned(prefix, { signal: AbortSignal.timeout(LEAVING_MS) });
+  await new Promise((resolve) => setTimeout(resolve, LEAVING_MS));
+  const left = await abandoned(prefix);
   if (left) outbox.adopt(prefix);
   return left;
 }
 
-/** @type {(prefix: string, how: LockOptions) => Promise<boolean>} */
-async function abandoned(prefix, how) {
+/** @type {(prefix: string) => Promise<boolean>} */
+async function abandoned(prefix) {
   if (!navigator.locks) return true;
-  return navigator.locks.request(prefix, how, (taken) => taken !== null).catch(() => false);
+  return navigator.locks.request(prefix, { ifAvailable: true }, (taken) => taken !== null);
 }
