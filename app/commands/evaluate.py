@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from msgspec import convert
 
 from fairyring.app.commands.files import about
 from fairyring.app.commands.rows import AsJson, console_of_tables
@@ -75,15 +76,19 @@ def _evaluated(
 ) -> dict[str, Any]:
     """The figures of two files; errors name the file they are about."""
     from fairyring.model.coco.document import read_document
+    from fairyring.model.evaluate.image_pairs import Pairing
     from fairyring.model.evaluate.pages import DocumentError
 
     documents = read_document(predicted), read_document(truth)
     blamed = {"predicted": (predicted,), "truth": (truth,), None: (predicted, truth)}
     try:
-        return evaluate(*documents)
+        figures = evaluate(*documents)
     except FairyringError as error:
         side = error.side if isinstance(error, DocumentError) else None
         raise about(error, *blamed[side]) from error
+    for sentence in convert(figures["pairing"], Pairing).sentences():
+        typer.echo(sentence, err=True)
+    return figures
 
 
 def _print_masks(figures: dict[str, Any]) -> None:

@@ -17,7 +17,10 @@ from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import area_of_rle
 
 MAX_DETECTIONS = (1, 10, 300)
-"""How many best predictions of an image count; AP and AR use the last. A bed holds more than COCO's 100."""
+"""How many best predictions of an image count; AP and AR use the last. A bed holds more than COCO's 100.
+
+It grows where an image has more true caps: else they could not all be found.
+"""
 FAR = 1e10
 """COCO's upper end of areas, px²."""
 
@@ -44,7 +47,7 @@ def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> Averag
         iouType="segm",
         separate_eval=True,
     )
-    evaluation.params.maxDets = list(MAX_DETECTIONS)
+    evaluation.params.maxDets = [*MAX_DETECTIONS[:2], most_detections(pages)]
     if not by_size:
         evaluation.params.areaRng, evaluation.params.areaRngLbl = [[0, FAR]], ["all"]
     evaluation.evaluate()
@@ -59,6 +62,12 @@ def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> Averag
         ar=_mean(recall[:, 0]),
         ap_by_size=tuple(_mean(precision[:, :, area]) for area in range(1, precision.shape[2])),
     )
+
+
+def most_detections(pages: Sequence[Page]) -> int:
+    """How many best predictions of an image count in AP and AR."""
+    caps = max((sum(not cap.ignored for cap in page.truths) for page in pages), default=0)
+    return max(MAX_DETECTIONS[-1], caps)
 
 
 def coco_of_pages(pages: Sequence[Page]) -> tuple[dict[str, Any], list[dict[str, Any]]]:

@@ -161,7 +161,8 @@ def evaluate_centres(
     segmentation. A cap whose prediction has no centre (``contour`` refused it) counts as missed. Raises
     FairyringError for what is not such a document.
     """
-    pages = pages_of(predicted, truth, masks=by == "iou", centres=True)
+    paged = pages_of(predicted, truth, masks=by == "iou", centres=True)
+    pages = paged.pages
     pair_up = compare if by == "iou" else compare_by_id
     compared = [
         _refused_as_missed(
@@ -183,6 +184,7 @@ def evaluate_centres(
             }
             for page, comparison in zip(pages, compared, strict=True)
         ],
+        "pairing": to_builtins(paged.pairing),
     }
 
 

@@ -103,7 +103,8 @@ def evaluate_masks(predicted: Document, truth: Document) -> dict[str, Any]:
     Only the truth's images count. Images are paired as by ``pages_of``. Raises FairyringError for what is
     not such a document.
     """
-    return to_builtins(score_masks(pages_of(predicted, truth, masks=True, centres=False)))
+    paged = pages_of(predicted, truth, masks=True, centres=False)
+    return to_builtins(score_masks(paged.pages)) | {"pairing": to_builtins(paged.pairing)}
 
 
 def score_masks(pages: Sequence[Page]) -> MaskScores:

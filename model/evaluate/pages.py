@@ -15,10 +15,11 @@ from msgspec import Struct
 from fairyring.model.coco.document import Document, annotations_by_image, objects_of
 from fairyring.model.coco.faults import Fault, Reported, place_of
 from fairyring.model.coco.ids import Id
-from fairyring.model.coco.images import ImageEntry, by_base_name, read_images, size_of
+from fairyring.model.coco.images import ImageEntry, read_images, size_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.caps import CapRecord, cap_of
-from fairyring.model.json_values import text
+from fairyring.model.evaluate.image_pairs import Pairing, named_images, partners_of
+from fairyring.model.json_values import base_name, text
 
 
 class DocumentError(FairyringError):
@@ -32,7 +33,7 @@ class Page(Struct, frozen=True, kw_only=True):
     """One image of the truth, with what was predicted there."""
 
     file_name: str
-    """Base name of the image's file."""
+    """Base name of the image's file; its whole path where another image has that name."""
     width: int
     height: int
     truths: list[CapRecord]
@@ -41,11 +42,21 @@ class Page(Struct, frozen=True, kw_only=True):
     form: str | None = None
 
 
-def pages_of(predicted: Document, truth: Document, *, masks: bool, centres: bool) -> list[Page]:
-    """The truth's images in its order, with the caps of both sides.
+class Paged(Struct, frozen=True, kw_only=True):
+    """Two documents, image by image."""
 
-    Images are paired by base file name; a result list, which names none, goes by the other side's image ids.
-    Caps are read as by ``cap_of``; without ``masks`` every one must have an id. Raises DocumentError.
+    pages: list[Page]
+    """The truth's images, in its order."""
+    pairing: Pairing
+    """What of both sides was not compared."""
+
+
+def pages_of(predicted: Document, truth: Document, *, masks: bool, centres: bool) -> Paged:
+    """The truth's images, with the caps of both sides.
+
+    Images are paired as by ``partners_of``; a result list, which names none, goes by the other side's image
+    ids. Caps are read as by ``cap_of``; without ``masks`` every one must have an id. Raises DocumentError,
+    also where the two have no image in common.
     """
     with _blamed_on("truth"):
         true_images, of_truth = _images(truth), _by_image(truth)
@@ -56,9 +67,10 @@ def pages_of(predicted: Document, truth: Document, *, masks: bool, centres: bool
             "Neither side lists images, and their sizes are needed; give a COCO file with images."
         )
     listed = true_images if true_images is not None else predicted_images or {}
+    partners, pairing = _partners(listed, true_images, predicted_images, of_truth, of_prediction)
     pages = []
     for name, image in listed.items():
-        other = (predicted_images or listed).get(name)
+        other = partners.get(name)
         page = _empty_page(name, image)
         if other is not None and size_of(other) != size_of(image):
             raise DocumentError(
@@ -71,7 +83,39 @@ def pages_of(predicted: Document, truth: Document, *, masks: bool, centres: bool
             indices = of_prediction.get(other.id, []) if other else []
             page.predictions.extend(_caps(predicted, indices, page, masks=masks, centres=centres))
         pages.append(page)
-    return pages
+    return Paged(pages=pages, pairing=pairing)
+
+
+def _partners(
+    listed: dict[str, ImageEntry],
+    true_images: dict[str, ImageEntry] | None,
+    predicted_images: dict[str, ImageEntry] | None,
+    of_truth: dict[Id | None, list[int]],
+    of_prediction: dict[Id | None, list[int]],
+) -> tuple[dict[str, ImageEntry], Pairing]:
+    if true_images is not None and predicted_images is not None:
+        partners, pairing = partners_of(true_images, predicted_images)
+        if true_images and not partners:
+            raise DocumentError(
+                f"The two have no image in common: the predictions are of {_first_of(predicted_images)}, "
+                f"the truth of {_first_of(true_images)}."
+            )
+        return partners, pairing
+    # One side is a list, which names images by the other's ids.
+    numbers = {image.id for image in listed.values()}
+    told = of_prediction if predicted_images is None else of_truth
+    strange = [str(number) for number in told if number not in numbers]
+    if told and len(strange) == len(told):
+        raise DocumentError(
+            f"The two have no image in common: the list is of image {strange[0]}, "
+            f"the other file has {_first_of(listed)}."
+        )
+    return dict(listed), Pairing(unknown=strange if predicted_images is None else [])
+
+
+def _first_of(images: dict[str, ImageEntry]) -> str:
+    first = next(iter(images), "no image")
+    return first if len(images) < 2 else f"{first} and {len(images) - 1} more"
 
 
 @contextmanager
@@ -88,14 +132,20 @@ def _stop(fault: Fault) -> NoReturn:
 
 
 def _images(document: Document) -> dict[str, ImageEntry] | None:
-    """The images by base name; None for a result list."""
+    """The images as ``named_images`` names them; None for a result list."""
     if document.images is None:
         return None
-    images = by_base_name(read_images(document, report=_stop), report=_stop)
-    for name, image in images.items():
+    listed = read_images(document, report=_stop)
+    for image in listed.values():
+        with Reported(image.where, _stop):
+            base_name(image.keys.get("file_name"))
+    named: dict[str, ImageEntry] = {}
+    with Reported("images", _stop):
+        named = named_images(listed.values())
+    for name, image in named.items():
         with Reported(f"{image.where}, {name}", _stop):
             size_of(image)
-    return images
+    return named
 
 
 def _by_image(document: Document) -> dict[Id | None, list[int]]:

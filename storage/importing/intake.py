@@ -7,13 +7,13 @@ from pathlib import Path
 
 from msgspec import Struct, field, structs
 
+from fairyring.model.coco.photo_names import PhotoNames, meant
 from fairyring.model.errors import FairyringError
 from fairyring.model.json_values import base_name
 from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
 from fairyring.storage.importing.cap_checks import check_caps
-from fairyring.storage.importing.photo_names import PhotoNames, meant
 from fairyring.storage.importing.photos import Beside, Photo, examine
 from fairyring.storage.importing.sources import Document, Sources
 from fairyring.storage.records import Status

@@ -9,11 +9,11 @@ from unicodedata import normalize
 from msgspec import Struct, field
 from sqlalchemy import Connection, select
 
+from fairyring.model.coco.photo_names import PhotoNames
 from fairyring.model.json_values import base_name
 from fairyring.model.photo import SUFFIXES, probe
 from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
-from fairyring.storage.importing.photo_names import PhotoNames
 from fairyring.storage.records import Status
 
 

@@ -27,7 +27,8 @@ SUBPIXEL = 4
 
 def draw_examples(predicted: dict[str, Any], photos: LabelledPhotos, out: Path) -> list[Path]:
     """Writes NAME-best.jpg, NAME-typical.jpg and NAME-worst.jpg, by AP, and returns them."""
-    pages = pages_of(document_of(predicted), document_of(photos.document), masks=True, centres=False)
+    paged = pages_of(document_of(predicted), document_of(photos.document), masks=True, centres=False)
+    pages = paged.pages
     scores = [score_masks([page]).ap or 0.0 for page in pages]
     order = np.argsort(scores)
     chosen = {"best": order[-1], "typical": order[len(order) // 2], "worst": order[0]}

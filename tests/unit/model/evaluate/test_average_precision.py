@@ -113,3 +113,15 @@ def test_more_predictions_than_coco_s_hundred_count() -> None:
 
     assert (found.ap, found.ar) == (1.0, 1.0)
     assert found.ap_by_size == ()
+
+
+def test_a_bed_of_more_caps_than_count_can_be_found_whole() -> None:
+    caps = []
+    for nth in range(600):
+        mask = np.zeros((SIDE, SIDE), np.uint8)
+        row, column = divmod(nth, 26)
+        mask[6 * row : 6 * row + 5, 6 * column : 6 * column + 5] = 1
+        caps.append(CapRecord(rle=rle_of_mask(mask), score=0.9))
+    whole = Page(file_name="a.png", width=SIDE, height=SIDE, truths=caps, predictions=caps)
+    found = average_precision([whole])
+    assert (found.ap, found.ap50, found.ar) == (1, 1, 1)

@@ -37,7 +37,7 @@ def test_the_command_s_figures_have_the_agreed_keys() -> None:
     figures = json.loads(json.dumps(figures_of(document({"segmentation": square(0, 0)}, id=1), truth)))
 
     contract = {"AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "groups"}
-    assert set(figures) == contract | {"S50_small", "best_f1", "score", "counts"}
+    assert set(figures) == contract | {"S50_small", "best_f1", "score", "counts", "pairing"}
     assert figures["groups"]["light"] == {
         "side": {"AP": 1.0, "S50": 1.0, "S75": 1.0, "S50_strict": 1.0, "count": 1}
     }
