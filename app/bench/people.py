@@ -86,7 +86,7 @@ async def _all_work(port: int, *, people: int, beds: int, seconds: float) -> Wai
         ends, waited = time.perf_counter() + seconds, Waited()
         # Those who share a bed have caps of their own.
         shares = [
-            shown.contents.predictions[number // beds :: -(-people // beds)]
+            _open_ones(shown)[number // beds :: -(-people // beds)]
             for number, (_, shown) in enumerate(opened)
         ]
         everybody = (
@@ -97,12 +97,19 @@ async def _all_work(port: int, *, people: int, beds: int, seconds: float) -> Wai
         return waited
 
 
+def _open_ones(shown: Show) -> list[Prediction]:
+    """The predictions that nobody has accepted yet."""
+    taken = {annotation.cap.prediction for annotation in shown.contents.annotations}
+    return [each for each in shown.contents.predictions if each.id not in taken]
+
+
 async def _correct(
     tab: Visitor, share: Sequence[Prediction], waited: Waited, *, chance: random.Random, ends: float
 ) -> None:
     """One person drags a vertex of one cap after another, until time is up."""
-    while time.perf_counter() < ends:
-        prediction = chance.choice(share)
+    for prediction in chance.sample(share, len(share)):
+        if time.perf_counter() > ends:
+            return
         await tab.send(Select(prediction=prediction.id))
         await asyncio.sleep(chance.uniform(*LOOK_S))
         await _drag(tab, prediction, waited, seconds=chance.uniform(*DRAG_S))

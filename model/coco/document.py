@@ -75,7 +75,7 @@ def parse_document(data: bytes) -> Document:
         top = _TOP.decode(text)
     except msgspec.ValidationError:
         return document_of(parse_json(text))
-    except (msgspec.DecodeError, RecursionError):
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         # Perhaps NaN, half a character or another encoding, which the slower parser knows.
         return document_of(parse_loosely(text))
     if isinstance(top, list):

@@ -110,7 +110,7 @@ def _change(holder: Any, key: Any, chance: random.Random) -> None:
         holder[key] = [old]
     elif what < 0.75 and isinstance(old, list):
         holder[key] = old * chance.choice([2, 50])
-    elif what < 0.85 and isinstance(old, int | float):
+    elif what < 0.85 and isinstance(old, int | float) and abs(old) < 1e300:
         holder[key] = chance.choice([-old, old * 1e6, old + 0.5, str(old), bool(old)])
     elif what < 0.86:
         holder[key] = DEEP

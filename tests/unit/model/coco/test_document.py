@@ -129,3 +129,9 @@ def test_a_bomb_is_not_unzipped_to_its_end(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr("fairyring.model.json_files.MOST_BYTES", 1 << 20)
     with pytest.raises(FairyringError, match="unzips to more than"):
         parse_document(gzip.compress(bytes(1 << 22)))
+
+
+@pytest.mark.parametrize("data", [b'{"images": [], "a\xbd": 1}', b"[\xbd"])
+def test_bytes_of_no_encoding_are_refused_with_a_sentence(data: bytes) -> None:
+    with pytest.raises(FairyringError, match="not JSON"):
+        parse_document(data)
