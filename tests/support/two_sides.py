@@ -30,6 +30,7 @@ class TwoSides:
 
     project: Project
     browser: BrowserSide
+    user: str = "Ada"
     look: Look = field(init=False)
     refused: list[str] = field(default_factory=list)
     up: bool = True
@@ -53,7 +54,7 @@ class TwoSides:
     def draw(self, x: float) -> None:
         """Ada draws a cap whose uid nobody has used."""
         self._drawn += 1
-        self.create(f"drawn{self._drawn}", x)
+        self.create(f"drawn{self._drawn} by {self.user}", x)
 
     def become(self, **caps: Cap | None) -> None:
         """Ada changes caps in one step; None deletes."""
@@ -89,17 +90,26 @@ class TwoSides:
             self._recall(message)
             return True
         derived, before = [Derived(edit=edit) for edit in message.edits], self.image.status
-        outcomes = commit(self.project, derived, statuses=message.statuses, user="Ada")
+        outcomes = commit(self.project, derived, statuses=message.statuses, user=self.user)
         if answer:
             if self.image.status != before:
                 self._tell("status_changed", IMAGE, self.image.status, True)
             self._tell("receive", outcomes)
         return True
 
+    def next_edits(self) -> list[Edit]:
+        """The edits of the message that the server answers next."""
+        return list(self._wire[0].edits) if self._wire and isinstance(self._wire[0], Edits) else []
+
+    def hear_status(self) -> None:
+        """The server tells this tab that somebody else has changed the status."""
+        if self.up:
+            self._tell("status_changed", IMAGE, self.image.status, False)
+
     def _recall(self, asked: Recall) -> None:
         with self.project.read() as connection:
             found = (
-                next_reversal(connection, IMAGE, user="Ada", way=asked.way)
+                next_reversal(connection, IMAGE, user=self.user, way=asked.way)
                 if asked.change_set is None
                 else reversal_of(connection, IMAGE, asked.change_set)
             )

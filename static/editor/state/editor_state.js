@@ -56,7 +56,7 @@ export class EditorState {
     nudge: signal(),
   };
 
-  /** The revisions of the selected caps when the press that is under way began. @type {Map<string, number>} */
+  /** The revisions of all caps when the press that is under way began. @type {Map<string, number>} */
   #gesture = new Map();
   #commit;
 
@@ -279,10 +279,10 @@ export class EditorState {
     if ([...this.selection.uids].some((uid) => heirs.has(uid))) this.selection.follow(heirs);
   }
 
-  /** A press begins a gesture: what it does to the selected caps it does to them as they are now. */
+  /** A press begins a gesture: what it does to caps it does to them as they are now. */
   beginGesture() {
     this.commitDrafts();
-    this.#gesture = new Map(this.selected.map(({ uid, revision }) => [uid, revision]));
+    this.#gesture = new Map(this.items.all.map(({ uid, revision }) => [uid, revision]));
   }
 
   endGesture() {
