@@ -64,6 +64,11 @@ class World:
         for tab in self.tabs:
             tab.cut()
 
+    def check_conflicts(self) -> None:
+        """Nobody is asked about what they did themselves."""
+        for tab in self.tabs:
+            assert all(conflict.user != tab.user for conflict in tab.look.conflicts)
+
     def rest(self) -> None:
         """The lines stay up, everything is sent, and every conflict is decided for the one who is asked."""
         for _ in range(100):
@@ -72,6 +77,7 @@ class World:
                     tab.reconnect()
             while self.serve(0) or self.serve(1):
                 pass
+            self.check_conflicts()
             asked = [tab for tab in self.tabs if tab.look.conflicts]
             if not asked:
                 return
@@ -166,6 +172,7 @@ def test_whatever_happens_the_journal_is_what_the_model_says_and_both_tabs_show_
     with begun(made_once, browsers, tmp_path) as world:
         for step in trace:
             happen(world, step)
+            world.check_conflicts()
         world.rest()
         project = world.tabs[0].project
         with project.read() as connection:
