@@ -167,6 +167,29 @@ export function removedVertices(cap, vertices) {
 }
 
 /**
+ * The cap without the neighbours that these vertices were put upon: so near that both are one point. A ring
+ * keeps three.
+ *
+ * @param {Cap} cap
+ * @param {Vertex[]} vertices
+ * @param {number} reach  image pixels
+ * @returns {Cap}
+ */
+export function mergedVertices(cap, vertices, reach) {
+  const rings = ringsOf(cap).map((ring) => ring.slice());
+  for (const { ring, index } of vertices) {
+    const count = rings[ring].length / 2;
+    const [x, y] = vertexAt(cap, { ring, index });
+    const near = [(index + 1) % count, (index + count - 1) % count].find((other) => {
+      const [ox, oy] = vertexAt(cap, { ring, index: other });
+      return Math.hypot(ox - x, oy - y) <= reach;
+    });
+    if (near !== undefined && count > FEWEST) rings[ring].splice(2 * near, 2);
+  }
+  return withRings(cap, rings);
+}
+
+/**
  * Indices of the vertices worth a handle when handles closer than `gap` along the ring would touch.
  *
  * @param {number[]} ring

@@ -9,7 +9,7 @@ import { hundredths, insideCap } from "../../geometry/caps.js";
 import { HANDLE_GAP_PX, handlesAreApart, movedHandle, nearestHandle } from "../../geometry/handles.js";
 import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
-import { insertedVertices, nearestEdges } from "../../geometry/vertices.js";
+import { insertedVertices, mergedVertices, nearestEdges } from "../../geometry/vertices.js";
 import { toImage } from "../../geometry/view.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 import { VertexRemoval } from "./vertex_removal.js";
@@ -184,6 +184,19 @@ export class SelectTool {
     this.#state.propose([withCap(shape, cap)]);
   }
 
+  /** A vertex that is put upon its neighbour becomes one with it, where each has a handle. @type {(handle: Handle) => void} */
+  #dropHandle(handle) {
+    const { sole } = this.#state;
+    if (sole && handle.kind === "vertex" && handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX))) {
+      const cap = mergedVertices(sole.cap, handle.vertices, this.#pixels(CLICK_PX));
+      if (cap.visible.flat().length < sole.cap.visible.flat().length) {
+        this.#state.selection.activate(null);
+        this.#state.propose([withCap(sole, cap)]);
+      }
+    }
+    this.#state.commitDrafts();
+  }
+
   /** @type {(grip: Grip & {kind: "band"}, press: Press) => void} */
   #band(grip, press) {
     grip.to = press.image;
@@ -197,6 +210,7 @@ export class SelectTool {
     if (grip.kind === "rim") this.#rim.up(press);
     else if (this.#moved) {
       if (grip.kind === "band") this.#selectBand(grip);
+      else if (grip.kind === "handle") this.#dropHandle(grip.handle);
       else this.#state.commitDrafts();
     } else if (grip.kind === "handle" && press.alt) {
       this.#removeVertex(grip.handle);

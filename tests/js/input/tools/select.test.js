@@ -91,6 +91,28 @@ test("a vertex taken out of a prediction makes an annotation of it, which a seco
   );
 });
 
+test("a vertex that is dropped upon its neighbour becomes one with it, one beside it does not", () => {
+  for (const [x, y, left] of [
+    [152, 159, 5],
+    [150, 150, 6],
+  ]) {
+    const { hand, points, committed } = selecting();
+    hand.stroke([
+      [150, 100],
+      [150, 130],
+      [x, y],
+    ]);
+    assert.deepEqual([points(), committed.length], [left, 1]);
+  }
+  const triangle = selecting(TRIANGLE);
+  triangle.hand.stroke([
+    [100, 50],
+    [120, 100],
+    [150, 159],
+  ]);
+  assert.equal(triangle.points(), 3);
+});
+
 test("undo while a vertex is dragged lets go of it; a tool that is taken up leaves it where it is", () => {
   const { state, committed, tool, hand } = selecting();
   hand.down([150, 100]);
