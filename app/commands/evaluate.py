@@ -65,6 +65,12 @@ def centres(
     from fairyring.model.evaluate.centres import evaluate_centres
 
     figures = _evaluated(partial(evaluate_centres, by=by.value), predicted, truth)
+    if figures["pairing"]["apart"] > figures["matched"] / 2:
+        typer.echo(
+            f"Of {figures['matched']} caps paired by id {figures['pairing']['apart']} lie further apart than "
+            "half a cap: the ids of the two files are not of the same caps. --by iou pairs by mask.",
+            err=True,
+        )
     if as_json:
         typer.echo(json.dumps(figures))
     else:

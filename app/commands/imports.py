@@ -124,7 +124,11 @@ def _print_import(report: ImportReport, *, as_json: bool) -> None:
         "problems": len(report.problems),
     }
     if as_json:
-        typer.echo(json.dumps(figures))
+        listed = [
+            {"file": problem.file, "where": problem.where, "reason": problem.reason}
+            for problem in report.problems
+        ]
+        typer.echo(json.dumps(figures | {"listed": listed}))
         return
     typer.echo(
         f"{report.images} new images, {report.annotations} annotations, {report.predictions} predictions; "

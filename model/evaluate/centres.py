@@ -21,6 +21,9 @@ from fairyring.model.evaluate.pages import pages_of
 from fairyring.model.geometry.raster import iou_matrix
 from fairyring.model.geometry.shapes import Centre
 
+HALF = 0.5
+"""Error over diameter from which two caps are hardly one."""
+
 
 class CentreError(Struct, frozen=True, kw_only=True):
     """A predicted centre against the true one."""
@@ -184,8 +187,14 @@ def evaluate_centres(
             }
             for page, comparison in zip(pages, compared, strict=True)
         ],
-        "pairing": to_builtins(paged.pairing),
+        "pairing": to_builtins(paged.pairing) | {"apart": _apart(compared) if by == "id" else 0},
     }
+
+
+def _apart(compared: Sequence[Comparison]) -> int:
+    """How many pairs have centres further apart than half a cap: by their ids alone they are one cap."""
+    errors = [error for comparison in compared for error in comparison.errors]
+    return sum(error.relative is not None and error.relative > HALF for error in errors)
 
 
 def _refused_as_missed(comparison: Comparison, predictions: Sequence[CapRecord]) -> Comparison:

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.cli import app
 from fairyring.model.errors import FileError
+from tests.support.terminal import fairyring
 
 
 def bed(*corners: int, **annotation: Any) -> dict[str, Any]:
@@ -102,3 +103,19 @@ def test_a_missing_file_is_named(truth: Path, tmp_path: Path) -> None:
 def test_every_evaluation_says_how_it_is_used() -> None:
     for command in ("masks", "centres"):
         assert f"fairyring evaluate {command}" in invoke(command, "--help").stdout
+
+
+def test_ids_that_are_of_other_caps_are_told(tmp_path: Path) -> None:
+    def file(name: str, *places: float) -> Path:
+        annotations = [
+            {"id": n, "image_id": 1, "circle": [x + 10, 15, 10]} for n, x in enumerate(places, start=1)
+        ]
+        image = {"id": 1, "file_name": "a.jpg", "width": 200, "height": 100}
+        path = tmp_path / name
+        path.write_text(json.dumps({"images": [image], "annotations": annotations}))
+        return path
+
+    truth, renumbered = file("truth.json", 5, 50, 100), file("said.json", 100, 5, 50)
+    told = fairyring("evaluate", "centres", renumbered, truth, "--by", "id")
+    assert "Of 3 caps paired by id 3 lie further apart" in told.stderr
+    assert "further apart" not in fairyring("evaluate", "centres", truth, truth, "--by", "id").stderr

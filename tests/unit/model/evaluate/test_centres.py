@@ -176,7 +176,7 @@ def test_the_command_s_figures_have_the_agreed_shape() -> None:
         "missed": 1,
         "extra": 0,
         "images": [{"file_name": "a.jpg", "cdr_mean": pytest.approx(2.0), "count": 1}],
-        "pairing": {"unpredicted": [], "unknown": [], "renamed": {}},
+        "pairing": {"unpredicted": [], "unknown": [], "renamed": {}, "apart": 0},
     }
 
 
