@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
 
 from fairyring.app.live import editing
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import (
     Changed,
     Edits,
     Notice,
     Outcomes,
     Show,
+    Working,
 )
 from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.storage.journal import Derived
 from fairyring.storage.project import Project
 from fairyring.storage.records import Accepted, Cap, Conflict, Edit, Refused
 from tests.support.tab import Tab, new_cap
@@ -63,6 +68,36 @@ def test_the_same_edit_again_is_accepted_again_and_stored_once(port: int, projec
         assert tab.edit(new_cap(1)) == first
     with sqlite3.connect(project.folder / "project.db") as database:
         assert database.execute("SELECT count(*) FROM edit").fetchone() == (1,)
+
+
+def test_what_is_stored_already_is_answered_before_anything_is_worked_out(
+    port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    derive = editing._derive
+
+    async def watched(workspace: Workspace, session: Session, edits: Sequence[Edit]) -> list[Derived]:
+        asked.append(len(edits))
+        return await derive(workspace, session, edits)
+
+    monkeypatch.setattr(editing, "_derive", watched)
+    sent = [new_cap(1, uid=f"cap-{number}", edit=f"edit-{number}") for number in range(3)]
+    with Tab(port, image=1) as tab:
+        tab.expect(Show)
+        first = tab.edit(*sent[:2])
+        again = tab.edit(*sent)
+    assert asked == [2, 1]
+    assert again.outcomes[:2] == first.outcomes
+
+
+def test_a_tab_hears_that_its_edits_are_being_stored_for_as_long_as_that_takes(
+    port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(editing, "SAY_WORKING_S", 0.001)
+    with Tab(port, image=1) as tab:
+        tab.expect(Show)
+        tab.edit(*(new_cap(1, uid=f"cap-{number}", edit=f"edit-{number}") for number in range(40)))
+        assert sum(isinstance(message, Working) for message in tab.received) >= 2
 
 
 def test_a_lost_update_is_a_conflict_that_names_who_was_first(port: int) -> None:
