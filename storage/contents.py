@@ -79,6 +79,12 @@ def load_run(connection: Connection, run_id: int) -> Run | None:
     return None if row is None else run_of(row)
 
 
+def load_latest_run(connection: Connection, image_id: int) -> Run | None:
+    """The latest run that saw an image. Raises StoreError where the project has no such image."""
+    latest = require_image(connection, image_id).run
+    return None if latest is None else load_run(connection, latest)
+
+
 def load_version(connection: Connection, image_id: int) -> int:
     """The image's version, which grows whenever an annotation or prediction of it changes.
 

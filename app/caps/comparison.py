@@ -22,7 +22,8 @@ from fairyring.model.geometry.boxes import boxes_of_outlines, touching
 from fairyring.model.geometry.raster import rle_of_outline
 from fairyring.model.geometry.shapes import diameter_of_shape
 from fairyring.storage.comparisons import Comparison, store_comparison
-from fairyring.storage.contents import load_annotations, load_contents, load_predictions, load_version
+from fairyring.storage.contents import load_annotations, load_latest_run, load_predictions, load_version
+from fairyring.storage.images import get_image
 from fairyring.storage.open_predictions import covered_by
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Outline, Prediction
@@ -72,12 +73,12 @@ def compare_image(project: Project, image_id: int, *, run: Run = here) -> Compar
     """Computes, by ``run``, and stores the figures of one image; None where no network has seen it."""
     with project.read() as connection:
         version = load_version(connection, image_id)
-        contents = load_contents(connection, image_id)
+        image, latest = get_image(connection, image_id), load_latest_run(connection, image_id)
         annotations = load_annotations(connection, image_id)
         predictions = load_predictions(connection, image_id)
-    if contents.run is None:
+    if latest is None:
         return None
-    figures = run(_compared, contents.run.id, version, contents.image, annotations, predictions)
+    figures = run(_compared, latest.id, version, image, annotations, predictions)
     project.write(lambda connection: store_comparison(connection, figures))
     return figures
 
