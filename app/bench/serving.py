@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.request import urlopen
 
-START_S = 60.0
+START_S = 180.0
 FAIRYRING = (sys.executable, "-c", "from fairyring.app.cli import main; main()")
 """The command, of this very Python."""
 
