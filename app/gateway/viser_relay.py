@@ -6,7 +6,7 @@ import asyncio
 import logging
 from collections.abc import Awaitable, Callable
 
-from starlette.websockets import WebSocket, WebSocketState
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
@@ -98,6 +98,9 @@ async def _to_browser(browser: WebSocket, panels: ClientConnection) -> tuple[int
                 await browser.send_bytes(frame)
     except ConnectionClosed as closed:
         return _close_of(closed)
+    except WebSocketDisconnect:
+        # The page went while a message was on its way, as it does when it is loaded anew.
+        return GOING_AWAY, ""
 
 
 def _close_of(closed: ConnectionClosed) -> tuple[int, str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import threading
 import time
 from collections.abc import Callable
@@ -15,23 +14,10 @@ import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from fairyring.app.bench.visitor import CAMERA, SUBPROTOCOL, TOKEN
 from fairyring.app.protocol import Edits, Hello, Incoming, Outcomes, Outgoing
 from fairyring.storage.records import Cap, Edit
 
-SUBPROTOCOL = "viser-v1.1.1"
-TOKEN = re.compile(r'id="fairyring-tab" data-token="([^"]+)"')
-CAMERA = {
-    "type": "ViewerCameraMessage",
-    "wxyz": [1.0, 0.0, 0.0, 0.0],
-    "position": [0.0, 0.0, 1.0],
-    "fov": 1.0,
-    "near": 0.1,
-    "far": 10.0,
-    "image_height": 600,
-    "image_width": 800,
-    "look_at": [0.0, 0.0, 0.0],
-    "up_direction": [0.0, 0.0, 1.0],
-}
 DEADLINE_S = 10.0
 Kind = TypeVar("Kind")
 SQUARE = [[20.0, 20.0, 60.0, 20.0, 60.0, 60.0, 20.0, 60.0]]
