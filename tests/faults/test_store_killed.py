@@ -41,15 +41,16 @@ with open_project(folder) as project:
 IMPORTER = """
 import os, signal, sys
 from pathlib import Path
-from fairyring.storage.importing import paths as importing
+from fairyring.storage.importing import paths, storing
 from fairyring.storage.project import open_project
 
 def die(*_, **__):
     os.kill(os.getpid(), signal.SIGKILL)
 
-setattr(importing, sys.argv[3], die)
+module, name = sys.argv[3].split(".")
+setattr({"paths": paths, "storing": storing}[module], name, die)
 with open_project(Path(sys.argv[1])) as project:
-    importing.import_paths(project, [Path(sys.argv[2])])
+    paths.import_paths(project, [Path(sys.argv[2])])
 """
 
 
@@ -114,9 +115,11 @@ def test_two_processes_write_at_once_and_both_get_through(folder):
         assert connection.exec_driver_sql("SELECT caps FROM image").scalar() == 150
 
 
-@pytest.mark.parametrize("moment", ["take_in", "_store", "enter_annotations", "ImportReport"])
+@pytest.mark.parametrize(
+    "moment", ["paths.take_in", "paths.store", "storing.enter_annotations", "storing._set_statuses"]
+)
 def test_an_import_that_is_killed_leaves_nothing_and_can_be_repeated(folder, tmp_path, moment):
-    """While it reads, before and between its rows, and when its photos are in place but not committed."""
+    """While it reads, and before, between and after its rows. test_import_killed.py has photos in place already."""
     new = photo(tmp_path / "new" / "bed_2.png")
     importer = start(IMPORTER, folder, new, moment)
     importer.communicate(timeout=120)

@@ -94,7 +94,7 @@ def test_too_few_caps_are_refused():
     [
         ({"segmentation": [[1, 1, 5, 5]]}, "annotation 1: A polygon needs at least three points"),
         ({"ellipse": [10, 10, 5]}, "annotation 1: Its ellipse is not 5 finite numbers"),
-        ({"ellipse": [10, 10, 5, 0, 0]}, "annotation 1: A radius must be more than 0"),
+        ({"ellipse": [10, 10, 5, 0, 0]}, "annotation 1: A radius must be at least 0.25 px"),
         ({"ignore": "no"}, "annotation 1: “ignore” is neither true nor false"),
     ],
 )
