@@ -119,7 +119,7 @@ def test_two_processes_write_at_once_and_both_get_through(folder):
     "moment", ["paths.take_in", "paths.store", "storing.enter_annotations", "storing._set_statuses"]
 )
 def test_an_import_that_is_killed_leaves_nothing_and_can_be_repeated(folder, tmp_path, moment):
-    """While it reads, and before, between and after its rows. test_import_killed.py has photos in place already."""
+    """While it reads, and before, between and after its rows; test_import_killed.py has photos in place."""
     new = photo(tmp_path / "new" / "bed_2.png")
     importer = start(IMPORTER, folder, new, moment)
     importer.communicate(timeout=120)
