@@ -25,18 +25,20 @@ def smoothed(logits: NDArray[np.float32]) -> NDArray[np.float32]:
     if area < FEWEST:
         return logits
     diameter = (4 * area / np.pi) ** 0.5
-    closed = _morphed(held, cv2.MORPH_CLOSE, radius=CLOSED * diameter)
+    reach = int(np.ceil(CLOSED * diameter)) + 1
+    around = np.pad(held, reach)
+    closed = ~_grown(~_grown(around, CLOSED * diameter), CLOSED * diameter)
+    closed = closed[reach:-reach, reach:-reach]
     filled = np.where(closed & ~held & (logits > OTHERS), np.float32(HARDLY), logits)
-    opened = _morphed(filled > 0, cv2.MORPH_OPEN, radius=OPENED * diameter)
+    around = np.pad(filled > 0, reach)
+    opened = _grown(~_grown(~around, OPENED * diameter), OPENED * diameter)
+    opened = opened[reach:-reach, reach:-reach]
     if np.count_nonzero(opened) < (1 - MOST_LOST) * area:
         return filled
     return np.where((filled > 0) & ~opened, -filled, filled)
 
 
-def _morphed(mask: NDArray[np.bool_], way: int, *, radius: float) -> NDArray[np.bool_]:
-    reach = int(np.ceil(radius))
-    y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1]
-    disc = (np.hypot(x, y) <= radius).astype(np.uint8)
-    padded = np.pad(mask, reach).astype(np.uint8)
-    done = cv2.morphologyEx(padded, way, disc)
-    return done[reach : padded.shape[0] - reach, reach : padded.shape[1] - reach] > 0
+def _grown(mask: NDArray[np.bool_], by: float) -> NDArray[np.bool_]:
+    """A mask with all pixels that lie within so many of it."""
+    away = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    return np.asarray(away) <= by
