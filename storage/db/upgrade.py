@@ -8,7 +8,7 @@ from alembic import command
 from alembic.config import Config
 from alembic.runtime.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import URL, Connection, inspect
+from sqlalchemy import URL, Connection, Engine, inspect
 
 from fairyring.storage.db import schema
 from fairyring.storage.db.copying import copy_database
@@ -75,27 +75,26 @@ def check_is_project(file: Path) -> str:
         raise StoreError(f"{file} is empty; restore it from a backup.")
     if begin != HEADER:
         raise StoreError(f"{file} is not a Fairyring database or is damaged; restore the latest backup.")
-    engine = connect_read_only(file)
-    try:
-        with explained(str(file)), engine.connect() as connection:
-            revision = _revision_of(connection, file)
-    finally:
-        engine.dispose()
+    revision = _revision_by(connect_read_only(file), file)
     if revision is None:
         raise StoreError(f"{file} holds no project; restore it from a backup.")
     return revision
 
 
 def _revision_at(url: str | URL, source: Path) -> str:
-    engine = connect_engine(url, write=False)
-    try:
-        with explained(str(source)), engine.connect() as connection:
-            revision = _revision_of(connection, source)
-    finally:
-        engine.dispose()
+    revision = _revision_by(connect_engine(url, write=False), source)
     if revision is None:
         raise StoreError(f"The database of {source} holds no project; give back the one it had.")
     return revision
+
+
+def _revision_by(engine: Engine, source: Path) -> str | None:
+    """What ``_revision_of`` says of an engine's database; the engine is done with then."""
+    try:
+        with explained(str(source)), engine.connect() as connection:
+            return _revision_of(connection, source)
+    finally:
+        engine.dispose()
 
 
 def _revision_of(connection: Connection, source: Path) -> str | None:

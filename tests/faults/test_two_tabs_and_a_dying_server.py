@@ -8,19 +8,17 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import history
-from fairyring.storage.project import create_project, open_project
+from fairyring.storage.project import open_project
 from fairyring.storage.records import STATUSES, Cap
 from tests.support.browser_side import BrowserSide
 from tests.support.how_much import by_form
 from tests.support.kept import all_caps
+from tests.support.plain_bed import make_empty_bed
 from tests.support.two_sides import TwoSides, triangle
 
 EXAMPLES = by_form(short=15, usual=150, long=3000)
@@ -128,11 +126,7 @@ def change(tab: TwoSides, what: str, uid: str, number: int) -> None:
 
 @pytest.fixture(scope="module")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("two tabs")
-    assert cv2.imwrite(str(folder / "bed.png"), np.zeros((80, 100, 3), np.uint8))
-    with create_project(folder / "beds") as project:
-        import_paths(project, [folder / "bed.png"])
-    return folder / "beds"
+    return make_empty_bed(tmp_path_factory.mktemp("two tabs"))
 
 
 @pytest.fixture(scope="module")

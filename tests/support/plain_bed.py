@@ -23,6 +23,14 @@ def ring(cx: float, cy: float, r: float, *, cut: float = math.inf, count: int = 
     return [value for a in angles for value in (min(cx + r * math.cos(a), cut), cy + r * math.sin(a))]
 
 
+def make_empty_bed(folder: Path) -> Path:
+    """A project with one dark photo of 100 × 80 and no caps."""
+    assert cv2.imwrite(str(folder / "bed.png"), np.zeros((80, 100, 3), np.uint8))
+    with create_project(folder / "beds") as project:
+        import_paths(project, [folder / "bed.png"])
+    return folder / "beds"
+
+
 def make_bed(folder: Path, caps: Sequence[Sequence[list[float]]], *, said: bool = False) -> Path:
     """A project with one photo for each list of outlines: annotations, or what a network ``said``."""
     source, project = folder / "source", folder / "project"

@@ -7,13 +7,11 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
 
-from fairyring.storage.importing.paths import import_paths
-from fairyring.storage.project import create_project, open_project
+from fairyring.storage.project import open_project
 from tests.support.browser_side import BrowserSide
+from tests.support.plain_bed import make_empty_bed
 from tests.support.two_sides import TwoSides
 
 Begin = Callable[[], AbstractContextManager[TwoSides]]
@@ -21,11 +19,7 @@ Begin = Callable[[], AbstractContextManager[TwoSides]]
 
 @pytest.fixture(scope="session")
 def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("sync")
-    assert cv2.imwrite(str(folder / "bed.png"), np.zeros((80, 100, 3), np.uint8))
-    with create_project(folder / "beds") as project:
-        import_paths(project, [folder / "bed.png"])
-    return folder / "beds"
+    return make_empty_bed(tmp_path_factory.mktemp("sync"))
 
 
 @pytest.fixture(scope="session")

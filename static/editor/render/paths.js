@@ -5,10 +5,11 @@
  * @module
  */
 
-import { axesOf } from "../geometry/caps.js";
+import { axesOf, placedWhole } from "../geometry/caps.js";
 import { SHADE } from "./palette.js";
 
 /** @typedef {import("../geometry/view.js").View} View */
+/** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Whole} Whole */
 /** @typedef {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} Context */
 
@@ -37,6 +38,13 @@ export function traceWhole(context, view, whole) {
   const cy = whole.cy * view.scale + view.y;
   context.moveTo(cx + a * view.scale * Math.cos(angle), cy + a * view.scale * Math.sin(angle));
   context.ellipse(cx, cy, a * view.scale, b * view.scale, angle, 0, 2 * Math.PI);
+}
+
+/** A cap's visible outline, and its mark where that is a circle or ellipse. @type {(context: Context, view: View, cap: Cap) => void} */
+export function traceCap(context, view, cap) {
+  for (const ring of cap.visible) traceRing(context, view, ring);
+  const placed = placedWhole(cap);
+  if (placed) traceWhole(context, view, placed);
 }
 
 /** A cross of `arm` CSS pixels. @type {(context: Context, x: number, y: number, arm: number) => void} */

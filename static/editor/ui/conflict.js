@@ -4,9 +4,8 @@
  * @module
  */
 
-import { placedWhole } from "../geometry/caps.js";
 import { CASING, COLOURS } from "../render/palette.js";
-import { strokeCased, traceRing, traceWhole } from "../render/paths.js";
+import { strokeCased, traceCap } from "../render/paths.js";
 import { element } from "./dom.js";
 
 /** @typedef {import("../sync/sync.js").OpenConflict} OpenConflict */
@@ -83,9 +82,7 @@ export class ConflictDialog {
     if (!conflict || conflict.theirs.deleted || !here) return false;
     const { cap } = conflict.theirs;
     context.beginPath();
-    for (const ring of cap.visible) traceRing(context, view, ring);
-    const placed = placedWhole(cap);
-    if (placed) traceWhole(context, view, placed);
+    traceCap(context, view, cap);
     context.setLineDash([6, 4]);
     strokeCased(context, { colour: COLOURS.theirs, width: 2.5, casing: CASING });
     context.setLineDash([]);

@@ -5,10 +5,9 @@
  * @module
  */
 
-import { placedWhole } from "../geometry/caps.js";
 import { isOfCap } from "../sync/outbox.js";
 import { CASING, COLOURS } from "../render/palette.js";
-import { strokeCased, traceRing, traceWhole } from "../render/paths.js";
+import { strokeCased, traceCap } from "../render/paths.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../sync/outbox.js").CapEdit} CapEdit */
@@ -55,9 +54,7 @@ export class Refusals {
     const caps = [...this.#told].flatMap(({ image: its, cap }) => (its === image && cap ? cap : []));
     for (const cap of caps) {
       context.beginPath();
-      for (const ring of cap.visible) traceRing(context, view, ring);
-      const placed = placedWhole(cap);
-      if (placed) traceWhole(context, view, placed);
+      traceCap(context, view, cap);
       context.setLineDash([2, 4]);
       strokeCased(context, { colour: COLOURS.refused, width: 2, casing: CASING });
       context.setLineDash([]);
