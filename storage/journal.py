@@ -117,22 +117,24 @@ def _check_caps(project: Project, edits: Sequence[Derived]) -> list[Cap | Fairyr
     """The cap of each edit as it can be stored, or why it cannot; None where the edit has none."""
     photos: dict[int, AnyRow] = {}
     checked: list[Cap | FairyringError | None] = []
-    with project.read() as connection:
-        for derived in edits:
-            try:
-                checked.append(_check(connection, derived, photos))
-            except FairyringError as error:
-                checked.append(error)
+    for derived in edits:
+        try:
+            checked.append(_check(project, derived, photos))
+        except FairyringError as error:
+            checked.append(error)
     return checked
 
 
-def _check(connection: Connection, derived: Derived, photos: dict[int, AnyRow]) -> Cap | None:
+def _check(project: Project, derived: Derived, photos: dict[int, AnyRow]) -> Cap | None:
     edit = derived.edit
     if derived.unfit:
         raise StoreError(derived.unfit)
     if edit.cap is None or derived.checked is not None:
         return derived.checked
-    photo = photos[edit.image] = photos.get(edit.image) or require_image(connection, edit.image)
+    if edit.image not in photos:
+        with project.read() as connection:
+            photos[edit.image] = require_image(connection, edit.image)
+    photo = photos[edit.image]
     return check_cap(edit.cap, width=photo.width, height=photo.height)
 
 

@@ -64,8 +64,9 @@ async def apply_edits(workspace: Workspace, session: Session, message: Edits) ->
         for tab in workspace.tabs.others_on(image_id, besides=session):
             tab.take_in(changed)
             tab.send(Changed(image=image_id, annotations=changed, user=session.user))
-            tab.refresh("cap", "history")
-    session.refresh("cap", "status", "history")
+            tab.follow("cap", "history")
+    session.refresh("cap", "status")
+    session.follow("history")
 
 
 async def _say_working(session: Session) -> None:
@@ -78,8 +79,13 @@ async def _say_working(session: Session) -> None:
 async def _store(
     workspace: Workspace, session: Session, message: Edits
 ) -> tuple[list[Outcome], list[Derived]]:
-    """Answers what is stored already at once, then works out and stores the rest; also returns that."""
-    answered = await workspace.read(partial(known_outcomes, edits=message.edits))
+    """Stores what is not stored already, once what follows from it is worked out; also returns that.
+
+    Of many edits, those stored already are answered first: sent again, they would all be worked out again.
+    """
+    answered: dict[str, Accepted] = {}
+    if len(message.edits) > A_FEW:
+        answered = await workspace.read(partial(known_outcomes, edits=message.edits))
     new = [edit for edit in message.edits if edit.id not in answered]
     derived = await _derive(workspace, session, new)
     store = partial(commit, workspace.project, derived, statuses=message.statuses, user=session.user)

@@ -48,7 +48,9 @@ class Session:
     user: str = ""
     has_panel: bool = False
     redraw: Callable[[tuple[str, ...]], None] = lambda _parts: None
-    """Has these parts of the panel drawn anew soon."""
+    """Has these parts of the panel drawn anew at once."""
+    redraw_soon: Callable[[tuple[str, ...]], None] = lambda _parts: None
+    """Has them drawn anew within a second or two, together with what else changes until then."""
     outbox: asyncio.Queue[FromServer] | None = None
     """Messages for the editor's socket; None while the editor is not connected."""
     hang_up: Callable[[], object] = lambda: None
@@ -96,8 +98,12 @@ class Session:
         self.send(Notice(text=text, level=level))
 
     def refresh(self, *parts: str) -> None:
-        """Asks for parts of the panel to be drawn anew."""
+        """Asks for parts of the panel to be drawn anew, after what the person at this tab did."""
         self.redraw(parts)
+
+    def follow(self, *parts: str) -> None:
+        """The same after what others did, or what is looked at later: soon is early enough."""
+        self.redraw_soon(parts)
 
     def show(self, contents: ImageContents) -> None:
         """Notes that another image is on screen, with these contents."""

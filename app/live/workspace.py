@@ -43,7 +43,7 @@ class Workspace:
         """Compares images with their predictions after edits."""
         return Reviewer(
             self.project,
-            compared=lambda _image: self.refresh("review", "images"),
+            compared=lambda _image: self.follow("review", "images"),
             run=self.crew.patient.run,
         )
 
@@ -51,6 +51,11 @@ class Workspace:
         """Draws parts of every tab's panel anew."""
         for tab in self.tabs:
             tab.refresh(*parts)
+
+    def follow(self, *parts: str) -> None:
+        """Draws parts of every tab's panel anew soon."""
+        for tab in self.tabs:
+            tab.follow(*parts)
 
     def start_job(self, session: Session, title: str, work: Callable[[Progress], Result]) -> None:
         """Starts long work for the person at a tab, told when it has ended; the same work only once."""

@@ -17,6 +17,8 @@ log = logging.getLogger(__name__)
 UNEXPECTED = "That did not work because of an error in Fairyring; the server's log says more."
 REDRAW_AFTER_S = 0.1
 """Delay of a redraw: quick successions are drawn once, and after the editor has drawn."""
+FOLLOW_AFTER_S = 1.0
+"""Delay of a redraw that nobody waits for: with twenty people at work something changes all the time."""
 Redraw = Callable[[], Awaitable[None]]
 """Draws one part of a panel anew."""
 Callback = Callable[[viser.GuiEvent[Any]], Coroutine[Any, Any, None]]
@@ -54,12 +56,23 @@ class Redrawing:
         self._parts = parts
         self._wanted: set[str] = set()
         self._task: asyncio.Task[None] | None = None
+        self._later: set[str] = set()
 
     def ask(self, parts: tuple[str, ...]) -> None:
         """Marks parts as out of date."""
         self._wanted.update(part for part in parts if part in self._parts)
         if self._task is None and self._wanted:
             self._task = asyncio.create_task(self._draw())
+
+    def ask_later(self, parts: tuple[str, ...]) -> None:
+        """Marks parts as out of date, and draws them together with what else becomes so until then."""
+        if not self._later:
+            asyncio.get_running_loop().call_later(FOLLOW_AFTER_S, self._ask_collected)
+        self._later.update(parts)
+
+    def _ask_collected(self) -> None:
+        parts, self._later = tuple(self._later), set()
+        self.ask(parts)
 
     async def _draw(self) -> None:
         try:

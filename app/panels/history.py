@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+from sqlalchemy import Connection
+
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
@@ -28,15 +32,19 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         image_id = session.image.id if session.image else 0
         if image_id != of_image[0]:
             of_image[0], page[0] = image_id, 0
-        total = (await workspace.read(lambda c: list_change_sets(c, image_id, limit=0))).total
-        page[0] = min(page[0], max(total - 1, 0) // PAGE)
-        offset = page[0] * PAGE
-        found = await workspace.read(lambda c: list_change_sets(c, image_id, offset=offset, limit=PAGE))
+        page[0], found = await workspace.read(partial(_page, image_id=image_id, wanted=page[0]))
         shown.content = history_list(found, page[0], image_id).html
         pages.visible = found.total > PAGE
 
     pages.on_click(person_did(session, turn))
     return redraw
+
+
+def _page(connection: Connection, *, image_id: int, wanted: int) -> tuple[int, ChangeSetPage]:
+    """The page asked for, or the last one if there are fewer, with its number."""
+    found = list_change_sets(connection, image_id, offset=wanted * PAGE, limit=PAGE)
+    last = max(found.total - 1, 0) // PAGE
+    return (wanted, found) if wanted <= last else _page(connection, image_id=image_id, wanted=last)
 
 
 def history_list(page: ChangeSetPage, number: int, image_id: int) -> Markup:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+
+from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
 from fairyring.app.live.session import Session
@@ -11,7 +14,14 @@ from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_OF_WORD, STATUS_WORDS
 from fairyring.model.light_and_form import FORMS, LIGHTS
-from fairyring.storage.images import ImageFilter, ImagePage, ImageRow, list_images, position_in_list
+from fairyring.storage.images import (
+    ImageFilter,
+    ImagePage,
+    ImageRow,
+    ListPosition,
+    list_images,
+    position_in_list,
+)
 
 PAGE = 10
 ANY = "any"
@@ -63,9 +73,15 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         session.refresh("images")
 
     async def redraw() -> None:
-        await _follow(workspace, session, at)
-        page = await _page(workspace, session, at)
-        shown.content = image_list(page, at.page, session.image.id if session.image else None).html
+        here = session.image.id if session.image else None
+        wanted = at.page if here == at.image else None
+        find = partial(_find, which=session.filter, here=here, wanted=wanted)
+        at.page, page, position = await workspace.read(find)
+        at.image = here
+        if position is not None:
+            session.position, session.count = position.position, position.count
+        session.refresh("status")
+        shown.content = image_list(page, at.page, here).html
 
     for control in (search, status, light, form, order):
         control.on_update(person_did(session, filter_changed))
@@ -78,24 +94,21 @@ def _chosen(value: str) -> str | None:
     return None if value == ANY else value
 
 
-async def _follow(workspace: Workspace, session: Session, at: _Shown) -> None:
-    if session.image is None:
-        return
-    here, which = session.image.id, session.filter
-    found = await workspace.read(lambda connection: position_in_list(connection, which, here))
-    session.position, session.count = found.position, found.count
-    session.refresh("status")
-    if here != at.image:
-        at.image, at.page = here, found.position // PAGE
+def _find(
+    connection: Connection, *, which: ImageFilter, here: int | None, wanted: int | None
+) -> tuple[int, ImagePage, ListPosition | None]:
+    """The number of a page, the page, and where the image on screen stands.
 
-
-async def _page(workspace: Workspace, session: Session, at: _Shown) -> ImagePage:
-    """The page asked for, or the last one if there are fewer."""
-    which, wanted = session.filter, at.page
-    count = (await workspace.read(lambda connection: list_images(connection, which, limit=0))).total
-    at.page = min(wanted, max(count - 1, 0) // PAGE)
-    offset = at.page * PAGE
-    return await workspace.read(lambda connection: list_images(connection, which, offset=offset, limit=PAGE))
+    The page ``wanted``, or the last one if there are fewer; None asks for the one with the image on screen.
+    """
+    at = None if here is None else position_in_list(connection, which, here)
+    if wanted is None:
+        wanted = 0 if at is None else at.position // PAGE
+    page = list_images(connection, which, offset=wanted * PAGE, limit=PAGE)
+    last = max(page.total - 1, 0) // PAGE
+    if wanted > last:
+        wanted, page = last, list_images(connection, which, offset=last * PAGE, limit=PAGE)
+    return wanted, page, at
 
 
 def image_list(page: ImagePage, number: int, current: int | None) -> Markup:

@@ -37,6 +37,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)
             parts["jobs"] = jobs.build(workspace, session)
-        session.redraw = Redrawing(parts).ask
+        redrawing = Redrawing(parts)
+        session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
         session.has_panel = True
     session.refresh("status", "cap", "images", "history", "layers", "review", "predict", "jobs")

@@ -22,6 +22,9 @@ log = logging.getLogger(__name__)
 BUSY_SECONDS = 30
 """How long a writer waits for another process (an import of tens of thousands of caps takes seconds)."""
 
+READERS = 40
+"""Readers at once whose connections are kept: to open one takes longer than what most of them read."""
+
 NETWORK_FILE_SYSTEMS = {
     "nfs",
     "nfs4",
@@ -40,7 +43,7 @@ def connect_engine(url: str | URL, *, write: bool) -> Engine:
     """An engine for readers (a pool, one snapshot a transaction) or for the one writer."""
     if make_url(url).get_backend_name() != "sqlite":
         return create_engine(url, **({"pool_size": 1, "max_overflow": 0} if write else {}))
-    pool = {"pool_size": 1, "max_overflow": 0} if write else {"pool_size": 8, "max_overflow": 32}
+    pool = {"pool_size": 1, "max_overflow": 0} if write else {"pool_size": READERS}
     engine = create_engine(url, connect_args={"timeout": BUSY_SECONDS, "check_same_thread": False}, **pool)
     event.listen(engine, "connect", _set_up_sqlite)
     begin = "BEGIN IMMEDIATE" if write else "BEGIN"

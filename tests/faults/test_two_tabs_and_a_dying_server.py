@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 
 from fairyring.storage.journal import history
 from fairyring.storage.project import open_project
-from fairyring.storage.records import STATUSES, Cap
+from fairyring.storage.records import STATUSES, Cap, Edit
 from tests.support.browser_side import BrowserSide
+from tests.support.dying_store import DyingStore
 from tests.support.how_much import by_form
-from tests.support.kept import all_caps
+from tests.support.kept import all_caps, number_of_edits
 from tests.support.plain_bed import make_empty_bed
 from tests.support.two_sides import TwoSides, triangle
 
@@ -33,6 +34,7 @@ class World:
     """Both tabs, and what a plain model says that the store holds."""
 
     tabs: list[TwoSides]
+    store: DyingStore
     model: dict[str, list[Cap | None]] = field(default_factory=dict)
     """Every state of each cap, the first one first; a state is there once, when its edit is acknowledged."""
     seen: set[str] = field(default_factory=set)
@@ -44,6 +46,15 @@ class World:
         edits, before = tab.next_edits(), tab.image.status
         if not tab.serve(answer=answer):
             return False
+        self.enter(edits)
+        for uid in {edit.annotation for edit in edits} & set(self.model):
+            other.tell_of(uid)
+        if tab.image.status != before:
+            other.hear_status()
+        return True
+
+    def enter(self, edits: Sequence[Edit]) -> None:
+        """Notes in the model what becomes of these edits."""
         for edit in edits:
             states = self.model.get(edit.annotation, [])
             spoilt = edit.cap is not None and edit.cap.category == "toadstool"
@@ -51,14 +62,17 @@ class World:
             if edit.id not in self.seen and edit.base == len(states) and not spoilt and not twice_gone:
                 self.model[edit.annotation] = [*states, edit.cap]
                 self.seen.add(edit.id)
-        for uid in {edit.annotation for edit in edits} & set(self.model):
-            other.tell_of(uid)
-        if tab.image.status != before:
-            other.hear_status()
-        return True
 
-    def die(self) -> None:
-        """The server dies: whatever is on its way is lost, and both tabs lose their line."""
+    def die(self, nth: int, *, after_s: float) -> None:
+        """The server is killed at work on a message of a tab: all of it is stored, or nothing of it.
+
+        Whatever else is on its way is lost, and both tabs lose their line.
+        """
+        tab = self.tabs[nth]
+        edits, before = tab.next_edits(), number_of_edits(tab.project.folder)
+        tab.have_die(self.store, after_s=after_s)
+        if number_of_edits(tab.project.folder) > before:
+            self.enter(edits)
         for tab in self.tabs:
             tab.cut()
 
@@ -97,7 +111,7 @@ def happen(world: World, step: Step) -> None:
     elif what == "reload":
         tab.reload()
     elif what == "die":
-        world.die()
+        world.die(nth, after_s=number / 4000)
     elif what in ("undo", "redo"):
         tab.do(what)
     elif what == "say":
@@ -137,9 +151,10 @@ def browsers() -> Iterator[list[BrowserSide]]:
 
 @contextmanager
 def begun(made_once: Path, browsers: list[BrowserSide], folder: Path) -> Iterator[World]:
-    with open_project(shutil.copytree(made_once, folder / "beds")) as project:
-        names = ("Ada", "Ben")
-        yield World([TwoSides(project, b, user=name) for b, name in zip(browsers, names, strict=True)])
+    beds = shutil.copytree(made_once, folder / "beds")
+    with open_project(beds) as project, DyingStore(beds) as store:
+        sides = zip(browsers, ("Ada", "Ben"), strict=True)
+        yield World([TwoSides(project, browser, user=user, store=store) for browser, user in sides], store)
     shutil.rmtree(folder / "beds")
 
 

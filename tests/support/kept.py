@@ -43,3 +43,9 @@ def live_caps(project: Path) -> list[str]:
 def all_caps(project: Path) -> list[str]:
     """The uids of all annotations on disk, deleted ones too."""
     return [row["uid"] for row in _query(project, "SELECT uid FROM annotation")]
+
+
+def number_of_edits(project: Path) -> int:
+    """How many edits the journal on disk has."""
+    (row,) = _query(project, "SELECT count(*) AS edits FROM edit")
+    return row["edits"]

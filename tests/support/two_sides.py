@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from fairyring.app.protocol import Edits, Recall, Recalled
@@ -15,6 +16,7 @@ from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image, Status
 from fairyring.storage.statuses import set_status
 from tests.support.browser_side import BrowserSide, Look
+from tests.support.dying_store import DyingStore
 
 IMAGE = 1
 
@@ -31,6 +33,8 @@ class TwoSides:
     project: Project
     browser: BrowserSide
     user: str = "Ada"
+    store: DyingStore | None = None
+    """Who stores what this tab sends; None where this process does."""
     look: Look = field(init=False)
     refused: list[str] = field(default_factory=list)
     up: bool = True
@@ -90,12 +94,22 @@ class TwoSides:
             self._recall(message)
             return True
         derived, before = [Derived(edit=edit) for edit in message.edits], self.image.status
-        outcomes = commit(self.project, derived, statuses=message.statuses, user=self.user)
+        store = partial(commit, self.project) if self.store is None else self.store.commit
+        outcomes = store(derived, statuses=message.statuses, user=self.user)
         if answer:
             if self.image.status != before:
                 self._tell("status_changed", IMAGE, self.image.status, True)
             self._tell("receive", outcomes)
         return True
+
+    def have_die(self, store: DyingStore, *, after_s: float) -> None:
+        """The store is killed so many seconds after it was sent the next message; nobody hears of it."""
+        message = self._wire[0] if self._wire else None
+        if isinstance(message, Edits):
+            derived = [Derived(edit=edit) for edit in message.edits]
+            store.die_storing(derived, statuses=message.statuses, user=self.user, after_s=after_s)
+        else:
+            store.die()
 
     def next_edits(self) -> list[Edit]:
         """The edits of the message that the server answers next."""
