@@ -11,7 +11,7 @@ from sqlalchemy import Connection, and_, select, union, update
 
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.db.counters import recount
-from fairyring.storage.db.rows import values_of_fit
+from fairyring.storage.db.rows import values_of_annotation_fit, values_of_fit
 from fairyring.storage.db.schema import annotation, image, prediction
 
 NONE: Mapping[Any, Fit] = MappingProxyType({})
@@ -75,18 +75,19 @@ def store_derived(
             annotation.c.revision == revision,
             _ANNOTATION_LACKS,
         )
-        stored += connection.execute(statement.values(**_values(fit))).rowcount
+        values = values_of_annotation_fit(_or_refused(fit))
+        stored += connection.execute(statement.values(**values)).rowcount
     for number, fit in predictions.items():
         statement = update(prediction).where(
             prediction.c.id == number, prediction.c.image == image_id, _PREDICTION_LACKS
         )
-        stored += connection.execute(statement.values(**_values(fit))).rowcount
+        stored += connection.execute(statement.values(**values_of_fit(_or_refused(fit)))).rowcount
     if stored:
         recount(connection, [image_id])
     return stored
 
 
-def _values(fit: Fit) -> dict[str, object]:
-    if fit.whole is None and fit.refusal is None:
-        fit = Fit(refusal="no outline was found")
-    return values_of_fit(fit)
+def _or_refused(fit: Fit) -> Fit:
+    """A fit that will not be asked for again."""
+    lacks = fit.whole is None and fit.refusal is None
+    return Fit(refusal="no outline was found") if lacks else fit

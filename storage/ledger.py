@@ -23,8 +23,8 @@ from fairyring.storage.db.rows import (
     annotation_of,
     is_number,
     load_categories,
+    values_of_annotation_fit,
     values_of_cap,
-    values_of_fit,
 )
 from fairyring.storage.records import Annotation, Cap, Edit
 
@@ -63,7 +63,7 @@ class Ledger:
         revision = 1 if before is None else before.revision + 1
         values = {"revision": revision, "deleted": cap is None, "edited_by": user, "edited_at": time}
         if cap is not None:
-            values |= values_of_cap(cap, categories=self.categories) | values_of_fit(fit)
+            values |= values_of_cap(cap, categories=self.categories) | values_of_annotation_fit(fit)
         if before is None:
             self._made[uid] = {"uid": uid, "image": edit.image, "extra": {}} | values
         elif uid in self._made:
@@ -191,5 +191,6 @@ def _after(edit: Edit, before: Annotation | None, cap: Cap | None, fit: Fit, *, 
         cap=cap,
         whole=fit.whole,
         centre=fit.centre,
+        centre_sd=fit.centre_sd,
         extra={} if before is None else before.extra,
     )

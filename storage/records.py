@@ -74,6 +74,8 @@ class Annotation(Struct, frozen=True, kw_only=True):
     whole: Shape | None = None
     """Whole outline, from the mark or else from the visible outline; None until it is worked out."""
     centre: tuple[float, float] | None = None
+    centre_sd: tuple[float, float] | None = None
+    """One standard deviation of the centre along x and y, pixels; None where it is not known."""
     extra: dict[str, Any] = field(default_factory=dict)
 
 

@@ -7,6 +7,9 @@ Our own keys of an annotation, beside COCO's:
     then a machine worked them out. Where both are given, the circle counts.
 ``mark``
     The polygon [x0, y0, …] a person marked; ``ellipse`` is then the one fitted to it.
+``center_sd``, ``mark_sd`` [sx, sy]
+    One standard deviation of the centre along x and y, in pixels: of one that a machine worked out, or of the
+    one that a person's mark determines.
 ``segmentation_of``
     ``"mark"`` where the visible outline is unknown and the polygons were drawn from the mark.
 ``amodal_segmentation``

@@ -6,6 +6,7 @@ reader is held up by what it needs alone, and raises ValueRefusedError where the
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 from fairyring.model.coco.ids import Id, id_of
@@ -75,6 +76,16 @@ def centre_of(entry: Entry) -> Centre | None:
         return None
     x, y = numbers(entry["center"], "Its center", count=2)
     return x, y
+
+
+def centre_sd_of(entry: Entry) -> tuple[float, float] | None:
+    """How sure its centre is: ``mark_sd`` of a mark, else ``center_sd``; None where neither says so."""
+    for key in ("mark_sd", "center_sd"):
+        with suppress(ValueRefusedError):
+            x, y = numbers(entry.get(key), key, count=2)
+            if x >= 0 and y >= 0:
+                return x, y
+    return None
 
 
 def mark_of(entry: Entry) -> Polygon | None:

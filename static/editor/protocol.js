@@ -71,6 +71,7 @@
  * @property {boolean} deleted
  * @property {Whole | null} whole
  * @property {Point | null} centre
+ * @property {Point | null} centre_sd
  * @property {Record<string, unknown>} extra
  */
 

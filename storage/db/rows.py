@@ -59,6 +59,7 @@ def annotation_of(row: AnyRow) -> Annotation:
         deleted=row.deleted,
         whole=row.whole,
         centre=_centre_of(row),
+        centre_sd=None if row.sd_x is None else (row.sd_x, row.sd_y),
         extra=row.extra,
     )
 
@@ -103,8 +104,14 @@ def values_of_cap(cap: Cap, *, categories: dict[str, int]) -> dict[str, Any]:
     }
 
 
+def values_of_annotation_fit(fit: Fit) -> dict[str, Any]:
+    """The columns of ``annotation`` that are derived."""
+    x, y = fit.centre_sd or (None, None)
+    return values_of_fit(fit) | {"sd_x": x, "sd_y": y}
+
+
 def values_of_fit(fit: Fit) -> dict[str, Any]:
-    """The columns that are derived."""
+    """The columns of ``prediction`` that are derived; of ``annotation`` there are more."""
     x, y = fit.centre or (None, None)
     return {"whole": fit.whole, "centre_x": x, "centre_y": y, "refusal": fit.refusal}
 

@@ -127,6 +127,8 @@ annotation = Table(
     Column("whole", Json(Shape)),
     Column("centre_x", Real),
     Column("centre_y", Real),
+    Column("sd_x", Real),
+    Column("sd_y", Real),
     Column("refusal", Text),
     Column("extra", Json(dict[str, Any]), nullable=False),
     Column("edited_by", Text, nullable=False),

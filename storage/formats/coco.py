@@ -14,6 +14,7 @@ from msgspec import structs
 from fairyring.model.coco.annotations import (
     Entry,
     centre_of,
+    centre_sd_of,
     is_doubtful,
     is_ignored,
     is_marked,
@@ -44,7 +45,7 @@ CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {
     *("id", "image_id", "category_id", "segmentation", "bbox", "area", "iscrowd", "score", "uid"),
     *("ignore", "ignored", "doubt", "doubtful", "order", "center", "circle", "ellipse", "mark", "marked"),
-    *("segmentation_of", "occlude_rate", "refusal"),
+    *("segmentation_of", "occlude_rate", "refusal", "mark_sd"),
 }
 OWN_ANNOTATION_KEYS = ANNOTATION_KEYS | {"keypoints", "num_keypoints", "amodal_segmentation"}
 """Of an annotation of our own export, which derives the last three; where others wrote them they are kept."""
@@ -173,6 +174,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
         marked=marked,
         whole=shape,
         centre=centre_of(entry),
+        centre_sd=centre_sd_of(entry),
         uid=entry["uid"] if isinstance(entry.get("uid"), str) else None,
         id=own if isinstance(own := own_id(entry), int) else None,
         is_mask=isinstance(segmentation, dict),

@@ -40,6 +40,8 @@ def annotation_entry(
     entry |= {"image_id": annotation.image, "category_id": category}
     entry |= {"iscrowd": int(cap.ignored), "marked": marked}
     entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
+    if annotation.centre_sd is not None:
+        entry["mark_sd" if marked else "center_sd"] = rounded(annotation.centre_sd)
     entry |= {"doubt": True} if cap.doubtful else {}
     entry |= {"ignored": True} if cap.ignored else {}
     entry |= {} if cap.order is None else {"order": cap.order}

@@ -31,6 +31,7 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     """Whether a person placed its shape and centre, rather than a machine."""
     whole: Shape | None = None
     centre: tuple[float, float] | None = None
+    centre_sd: tuple[float, float] | None = None
     uid: str | None = None
     id: int | None = None
     """Its number in the file."""

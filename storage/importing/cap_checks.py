@@ -64,7 +64,9 @@ def _checked(found: FoundCap, photo: Photo) -> tuple[FoundCap, list[str]]:
         centre = centre or centre_of_shape(whole)
     own = found.uid if found.uid and OWN_NUMBER.fullmatch(found.uid) else None
     uid = own or content_number(cap, photo=photo)
-    return structs.replace(found, cap=cap, whole=whole, centre=centre, uid=uid, rle=None), remarks
+    sd = None if whole is None else found.centre_sd
+    checked = structs.replace(found, cap=cap, whole=whole, centre=centre, centre_sd=sd, uid=uid, rle=None)
+    return checked, remarks
 
 
 def _with_outline(

@@ -16,7 +16,13 @@ from fairyring.storage.db.bulk import insert_many
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.counters import recount
 from fairyring.storage.db.numbering import count_on, free_numbers
-from fairyring.storage.db.rows import ensure_category, load_categories, values_of_cap, values_of_fit
+from fairyring.storage.db.rows import (
+    ensure_category,
+    load_categories,
+    values_of_annotation_fit,
+    values_of_cap,
+    values_of_fit,
+)
 from fairyring.storage.formats.found import FoundCap, FoundCategory
 from fairyring.storage.images import sort_name
 from fairyring.storage.importing.cap_checks import content_number
@@ -103,7 +109,7 @@ def enter_annotations(
         numbers[photo.id] = sets.number(photo.id, name, time=time)
         annotations.append(
             values_of_cap(cap.cap, categories=ids)
-            | values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
+            | values_of_annotation_fit(Fit(whole=cap.whole, centre=cap.centre, centre_sd=cap.centre_sd))
             | {"uid": uid, "image": photo.id, "revision": 1, "deleted": False, "extra": cap.extra}
             | {"edited_by": user, "edited_at": time, "id": cap.id}
         )

@@ -47,6 +47,6 @@ export function openState({ shapes = [], predictions = [] } = {}) {
  * @type {(uid: string, cap: import("../../../static/editor/protocol.js").Cap) => Shape}
  */
 export function storedShape(uid, cap) {
-  const fields = { image: 1, revision: 1, deleted: false, whole: null, centre: null, extra: {} };
+  const fields = { image: 1, revision: 1, deleted: false, whole: null, centre: null, centre_sd: null, extra: {} };
   return shapeOfAnnotation({ uid, cap, ...fields });
 }

@@ -51,7 +51,8 @@ test("accepting two thousand caps is sent a hundred at a time, and the next hund
     sync.receive(
       edits.map(({ id, annotation, cap }) => {
         assert.ok(cap);
-        const stored = { uid: annotation, image: 0, revision: 1, cap, deleted: false, whole: null, centre: null, extra: {} };
+        const fit = { whole: null, centre: null, centre_sd: null };
+        const stored = { uid: annotation, image: 0, revision: 1, cap, deleted: false, ...fit, extra: {} };
         return { outcome: "accepted", edit: id, annotation: stored };
       }),
     );

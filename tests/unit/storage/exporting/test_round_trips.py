@@ -38,6 +38,25 @@ def test_what_is_exported_and_imported_into_a_new_project_is_the_same(beds, out,
     assert import_paths(beds, [out]).known == 5
 
 
+def test_how_sure_a_centre_is_is_exported_and_comes_back_until_the_cap_is_edited(beds, out, tmp_path):
+    store(beds, Cap(visible=[SQUARE], mark=Polygon(SQUARE)), whole=Circle(20, 20, 14), centre_sd=(0.3, 0.4))
+    store(beds, Cap(visible=[TRIANGLE]), image=2, whole=Circle(50, 46, 11), centre_sd=(0.5, 0.6))
+    store(beds, Cap(visible=[TRIANGLE]), image=3, whole=Circle(50, 46, 11))
+    marked, worked_out, unknown = export(beds, out)["annotations"]
+    assert (marked["mark_sd"], worked_out["center_sd"]) == ([0.3, 0.4], [0.5, 0.6])
+    assert not {"center_sd", "mark_sd"} & {*unknown}
+    assert "center_sd" not in marked  # it would say that a machine worked the centre out
+    with create_project(tmp_path / "other") as other:
+        import_paths(other, [out])
+        with other.read() as connection:
+            first, second, third = (load_annotations(connection, image)[0] for image in (1, 2, 3))
+        assert [each.centre_sd for each in (first, second, third)] == [(0.3, 0.4), (0.5, 0.6), None]
+        assert first.cap.mark == Polygon(SQUARE)
+        edit = Edit(id="e", annotation=second.uid, image=2, base=1, cap=Cap(visible=[SQUARE]))
+        commit(other, [Derived(edit=edit)], user="ann")
+        assert "center_sd" not in export(other, tmp_path / "again")["annotations"][1]
+
+
 def test_predictions_exported_and_imported_again_are_the_same(mixed, out, tmp_path):
     export(mixed, out, only="predicted")
     with create_project(tmp_path / "other") as other:
