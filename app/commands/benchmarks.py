@@ -82,6 +82,17 @@ def fit(
 
 
 @commands.command()
+def evaluation(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Measure memory and time of evaluating 120 000 caps against 120 000.
+
+    Example: `fairyring bench evaluation --json`
+    """
+    from fairyring.app.bench.evaluation import evaluation_rows
+
+    print_rows("evaluation", evaluation_rows(quick=quick), as_json=as_json)
+
+
+@commands.command()
 def people(*, quick: Quick = False, as_json: AsJson = False) -> None:
     """Time edits and live fits while twenty people drag caps on dense beds at once.
 

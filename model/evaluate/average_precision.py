@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import faster_coco_eval
@@ -21,8 +23,9 @@ MAX_DETECTIONS = (1, 10, 300)
 
 It grows where an image has more true caps: else they could not all be found.
 """
-FAR = 1e10
-"""COCO's upper end of areas, px²."""
+CATEGORY = 1
+AT_ONCE = 20
+"""How many images are matched at once."""
 
 
 class AveragePrecision(Struct, frozen=True, kw_only=True):
@@ -38,19 +41,46 @@ class AveragePrecision(Struct, frozen=True, kw_only=True):
     """AP of COCO's small, medium and large visible areas; empty where not asked for."""
 
 
+@dataclass(frozen=True)
+class Matches:
+    """Images whose predictions were matched with their true caps, for figures of any of these images."""
+
+    pages: Sequence[Page]
+    of_areas: list[list[Any]]
+    """What faster-coco-eval made of it, by COCO's areas (all, small, medium, large), then by image."""
+    params: Any
+    """The settings with which it did."""
+
+
 def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> AveragePrecision:
     """AP and AR of the predictions in these images. Ignored caps go in as crowds, sized by their masks."""
-    document, results = coco_of_pages(pages)
-    evaluation: Any = faster_coco_eval.COCOeval_faster(
-        faster_coco_eval.COCO(document),
-        faster_coco_eval.COCO({**document, "annotations": results}),
-        iouType="segm",
-        separate_eval=True,
-    )
-    evaluation.params.maxDets = [*MAX_DETECTIONS[:2], most_detections(pages)]
-    if not by_size:
-        evaluation.params.areaRng, evaluation.params.areaRngLbl = [[0, FAR]], ["all"]
-    evaluation.evaluate()
+    return precision_of(matches_of(pages), range(len(pages)), by_size=by_size)
+
+
+def matches_of(pages: Sequence[Page]) -> Matches:
+    """Matches a few images at a time: COCO's form of a cap takes ten times the memory of ours."""
+    most = most_detections(pages)
+    params: Any = _params(most)
+    of_areas: list[list[Any]] = [[] for _ in params.areaRng]
+    for start in range(0, len(pages), AT_ONCE):
+        some = pages[start : start + AT_ONCE]
+        # One category; within it areas, and within these images.
+        found = _evaluated(some, most)
+        for area, of_area in enumerate(of_areas):
+            of_area.extend(found[area * len(some) : (area + 1) * len(some)])
+    return Matches(pages=pages, of_areas=of_areas, params=params)
+
+
+def precision_of(matches: Matches, chosen: Sequence[int], *, by_size: bool = False) -> AveragePrecision:
+    """AP and AR of the images at these places, as if there were no others."""
+    params = copy.copy(matches.params)
+    params.imgIds = list(range(1, len(chosen) + 1))
+    params.maxDets = [*MAX_DETECTIONS[:2], most_detections([matches.pages[place] for place in chosen])]
+    areas = len(matches.of_areas) if by_size else 1
+    params.areaRng, params.areaRngLbl = params.areaRng[:areas], params.areaRngLbl[:areas]
+    evaluation: Any = faster_coco_eval.COCOeval_faster(iouType="segm", separate_eval=True)
+    evaluation._paramsEval = params
+    evaluation._evalImgs_cpp = [found[place] for found in matches.of_areas[:areas] for place in chosen]
     evaluation.accumulate()
     # IoUs, recalls, classes, areas, detections; and the same without recalls. -1 where there is no truth.
     precision: NDArray[np.float64] = evaluation.eval["precision"][:, :, 0, :, -1]
@@ -62,6 +92,26 @@ def average_precision(pages: Sequence[Page], *, by_size: bool = False) -> Averag
         ar=_mean(recall[:, 0]),
         ap_by_size=tuple(_mean(precision[:, :, area]) for area in range(1, precision.shape[2])),
     )
+
+
+def _params(most: int) -> Any:
+    params: Any = faster_coco_eval.COCOeval_faster(iouType="segm").params
+    params.catIds = [CATEGORY]
+    params.maxDets = [*MAX_DETECTIONS[:2], most]
+    return params
+
+
+def _evaluated(pages: Sequence[Page], most: int) -> list[Any]:
+    document, results = coco_of_pages(pages)
+    evaluation: Any = faster_coco_eval.COCOeval_faster(
+        faster_coco_eval.COCO(document),
+        faster_coco_eval.COCO({**document, "annotations": results}),
+        iouType="segm",
+        separate_eval=True,
+    )
+    evaluation.params.maxDets = _params(most).maxDets
+    evaluation.evaluate()
+    return evaluation._evalImgs_cpp
 
 
 def most_detections(pages: Sequence[Page]) -> int:
@@ -78,7 +128,7 @@ def coco_of_pages(pages: Sequence[Page]) -> tuple[dict[str, Any], list[dict[str,
             for number, page in enumerate(pages, start=1)
         ],
         "annotations": list(_annotations([page.truths for page in pages], predicted=False)),
-        "categories": [{"id": 1, "name": DEFAULT_CATEGORY}],
+        "categories": [{"id": CATEGORY, "name": DEFAULT_CATEGORY}],
     }
     return document, list(_annotations([page.predictions for page in pages], predicted=True))
 
@@ -93,7 +143,7 @@ def _annotations(images: list[list[CapRecord]], *, predicted: bool) -> Iterator[
             yield {
                 "id": number,
                 "image_id": image,
-                "category_id": 1,
+                "category_id": CATEGORY,
                 "segmentation": rle,
                 "area": area_of_rle(rle),
                 "iscrowd": int(cap.ignored and not predicted),

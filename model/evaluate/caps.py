@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 from msgspec import Struct
 
 from fairyring.model.coco.annotations import (
@@ -10,6 +13,7 @@ from fairyring.model.coco.annotations import (
     centre_of,
     drawn_of,
     is_ignored,
+    is_marked,
     own_id,
     score_of,
     shape_of,
@@ -23,6 +27,7 @@ from fairyring.model.geometry.raster import Rle, area_of_rle, rle_of_outline
 from fairyring.model.geometry.rle import checked_counts, cut_of_counts
 from fairyring.model.geometry.shapes import (
     Centre,
+    Circle,
     Outline,
     Polygon,
     Shape,
@@ -30,7 +35,7 @@ from fairyring.model.geometry.shapes import (
     diameter_of_shape,
     part_of_points,
 )
-from fairyring.model.json_values import ValueRefusedError
+from fairyring.model.json_values import ValueRefusedError, text
 
 
 class CapRecord(Struct, frozen=True, kw_only=True):
@@ -47,6 +52,14 @@ class CapRecord(Struct, frozen=True, kw_only=True):
     """Diameter of the whole cap, pixels."""
     ignored: bool = False
     """Whether a true cap counts neither way."""
+    area: float | None = None
+    """Visible pixels; None where they are not known."""
+    visible_share: float | None = None
+    """Share of the whole cap that is in sight; None where no whole outline is stated."""
+    mark: str | None = None
+    """What its centre was taken from: polygon, circle, ellipse or centre; None of an outline alone."""
+    shape: str | None = None
+    """Regular or irregular, as a contour method found it."""
 
 
 def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool) -> CapRecord:
@@ -57,9 +70,11 @@ def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool)
     Raises FairyringError, which does not say which annotation it is.
     """
     whole, score = _checked_shape(entry, width=width, height=height), score_of(entry)
+    stated = whole
     outline, rle = _mask(entry, width=width, height=height) if masks else (None, None)
     if centres and whole is None and not entry.get("refusal"):
         whole = _fitted(outline, rle)
+    area = _area(entry, rle) if centres else None
     return CapRecord(
         id=own_id(entry),
         rle=rle,
@@ -68,6 +83,10 @@ def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool)
         centre=_centre(entry, whole, width=width, height=height) if centres else None,
         diameter=diameter_of_shape(whole) if whole else _longer_side(entry) if centres else None,
         ignored=is_ignored(entry),
+        area=area,
+        visible_share=_visible_share(entry, stated, area) if centres else None,
+        mark=_kind_of_mark(entry, stated) if centres else None,
+        shape=text(entry.get("shape")) if centres else None,
     )
 
 
@@ -107,6 +126,36 @@ def _centre(entry: Entry, whole: Shape | None, *, width: int, height: int) -> Ce
     if stated is not None:
         return check_centre(stated, width=width, height=height)
     return None if whole is None else centre_of_shape(whole)
+
+
+def _area(entry: Entry, rle: Rle | None) -> float | None:
+    return _figure(entry.get("area")) if rle is None else float(area_of_rle(rle))
+
+
+def _visible_share(entry: Entry, stated: Shape | None, area: float | None) -> float | None:
+    """As ``occlude_rate`` says; else of the stated whole outline."""
+    hidden = _figure(entry.get("occlude_rate"))
+    if hidden is not None and 0 <= hidden <= 1:
+        return 1 - hidden
+    if stated is None or area is None:
+        return None
+    return min(area / (math.pi * (diameter_of_shape(stated) / 2) ** 2), 1.0)
+
+
+def _kind_of_mark(entry: Entry, stated: Shape | None) -> str | None:
+    if not is_marked(entry):
+        return None
+    if entry.get("mark"):
+        return "polygon"
+    if stated is not None:
+        return "circle" if isinstance(stated, Circle) else "ellipse"
+    return "centre" if entry.get("center") is not None else None
+
+
+def _figure(value: Any) -> float | None:
+    """A finite number; None for everything else, as other programs write what they like here."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    return float(value) if is_number and math.isfinite(value) else None
 
 
 def _longer_side(entry: Entry) -> float | None:

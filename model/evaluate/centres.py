@@ -9,20 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Literal
 
 import numpy as np
-from msgspec import Struct, to_builtins
+from msgspec import Struct
 
-from fairyring.model.coco.document import Document
 from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_overlap, unmatched_in_ignored
-from fairyring.model.evaluate.pages import pages_of
 from fairyring.model.geometry.raster import iou_matrix
 from fairyring.model.geometry.shapes import Centre
-
-HALF = 0.5
-"""Error over diameter from which two caps are hardly one."""
 
 
 class CentreError(Struct, frozen=True, kw_only=True):
@@ -98,11 +92,16 @@ def centre_error(
 
 
 def compare(
-    truths: Sequence[CapRecord], predictions: Sequence[CapRecord], *, width: int, height: int
+    truths: Sequence[CapRecord],
+    predictions: Sequence[CapRecord],
+    *,
+    width: int,
+    height: int,
+    least_iou: float = LEAST_IOU,
 ) -> Comparison:
     """Pairs the caps of one image one to one by their masks and measures their centres.
 
-    Pairs are taken in order of falling IoU down to LEAST_IOU. Between visible masks, which hardly overlap
+    Pairs are taken in order of falling IoU down to ``least_iou``. Between visible masks, which hardly overlap
     among themselves, a mask has at most one partner above a half, and the order then decides nothing; where
     predictions do overlap, the best one gets the cap. Ignored truths take no partner.
     """
@@ -110,7 +109,7 @@ def compare(
     iou = iou_matrix([mask_of(truths[index]) for index in real], [mask_of(cap) for cap in predictions])
     pairs = [
         _pair(truths, predictions, real[row], column, iou=float(iou[row, column]), size=(width, height))
-        for row, column in pairs_by_overlap(iou, least=LEAST_IOU)
+        for row, column in pairs_by_overlap(iou, least=least_iou)
     ]
     found, used = {pair.truth for pair in pairs}, {pair.prediction for pair in pairs}
     neither_way = unmatched_in_ignored(truths, predictions, matched=used)
@@ -151,59 +150,6 @@ def summarise(errors: Sequence[CentreError]) -> Summary:
         px=_spread([e.px for e in errors]),
         relative=_spread([e.relative for e in errors if e.relative is not None]),
         bias_px=bias,
-    )
-
-
-def evaluate_centres(
-    predicted: Document, truth: Document, *, by: Literal["iou", "id"] = "iou"
-) -> dict[str, Any]:
-    """The figures of ``fairyring evaluate centres`` for two COCO documents or result lists.
-
-    Only the truth's images count. Images are paired by base file name, by their id where one side is a list;
-    caps within an image by mask (``compare``) or, with ``by="id"``, by annotation id, which reads no
-    segmentation. A cap whose prediction has no centre (``contour`` refused it) counts as missed. Raises
-    FairyringError for what is not such a document.
-    """
-    paged = pages_of(predicted, truth, masks=by == "iou", centres=True)
-    pages = paged.pages
-    pair_up = compare if by == "iou" else compare_by_id
-    compared = [
-        _refused_as_missed(
-            pair_up(page.truths, page.predictions, width=page.width, height=page.height), page.predictions
-        )
-        for page in pages
-    ]
-    summary = summarise([error for comparison in compared for error in comparison.errors])
-    return {
-        **to_builtins(summary),
-        "matched": sum(len(comparison.pairs) for comparison in compared),
-        "missed": sum(len(comparison.missed) for comparison in compared),
-        "extra": sum(len(comparison.extra) for comparison in compared),
-        "images": [
-            {
-                "file_name": page.file_name,
-                "cdr_mean": summarise(comparison.errors).cdr.mean,
-                "count": len(comparison.errors),
-            }
-            for page, comparison in zip(pages, compared, strict=True)
-        ],
-        "pairing": to_builtins(paged.pairing) | {"apart": _apart(compared) if by == "id" else 0},
-    }
-
-
-def _apart(compared: Sequence[Comparison]) -> int:
-    """How many pairs have centres further apart than half a cap: by their ids alone they are one cap."""
-    errors = [error for comparison in compared for error in comparison.errors]
-    return sum(error.relative is not None and error.relative > HALF for error in errors)
-
-
-def _refused_as_missed(comparison: Comparison, predictions: Sequence[CapRecord]) -> Comparison:
-    """Counts refused caps as missed: else a method could gain by refusing the caps it finds hard."""
-    refused = [pair for pair in comparison.pairs if predictions[pair.prediction].centre is None]
-    return Comparison(
-        pairs=[pair for pair in comparison.pairs if pair not in refused],
-        missed=sorted([*comparison.missed, *(pair.truth for pair in refused)]),
-        extra=comparison.extra,
     )
 
 

@@ -15,14 +15,10 @@ from msgspec import Struct, to_builtins
 
 from fairyring.model.coco.document import Document
 from fairyring.model.errors import FairyringError
-from fairyring.model.evaluate.average_precision import average_precision
+from fairyring.model.evaluate.average_precision import Matches, matches_of, precision_of
 from fairyring.model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, joined, outcomes_of_page
-from fairyring.model.evaluate.pages import Page, pages_of
-
-SMALL_PX = 30.0
-"""Diameter, pixels, below which a cap counts in S50_small alone."""
-MEDIUM_AREA, LARGE_AREA = 32.0**2, 96.0**2
-"""Visible pixels from which on COCO calls an object medium or large."""
+from fairyring.model.evaluate.pages import Page, Paged, pages_of, truth_of
+from fairyring.model.evaluate.sizes import LARGE_AREA, MEDIUM_AREA, SMALL_PX
 
 CAPITALS = {"ap": "AP", "ap50": "AP50", "ap75": "AP75", "ar": "AR", "p": "P", "r": "R", "f1": "F1"} | {
     f"s{rest}": f"S{rest}" for rest in ("50", "75", "50_strict", "50_small")
@@ -103,7 +99,11 @@ def evaluate_masks(predicted: Document, truth: Document) -> dict[str, Any]:
     Only the truth's images count. Images are paired as by ``pages_of``. Raises FairyringError for what is
     not such a document.
     """
-    paged = pages_of(predicted, truth, masks=True, centres=False)
+    return figures_of_masks(pages_of(predicted, truth_of(truth, masks=True, centres=False)))
+
+
+def figures_of_masks(paged: Paged) -> dict[str, Any]:
+    """The same for documents that were read with masks."""
     return to_builtins(score_masks(paged.pages)) | {"pairing": to_builtins(paged.pairing)}
 
 
@@ -115,7 +115,8 @@ def score_masks(pages: Sequence[Page]) -> MaskScores:
     if not pages:
         raise FairyringError("There is no image to evaluate; the truth must list at least one.")
     by_page = [outcomes_of_page(page) for page in pages]
-    everything, precision = joined(by_page), average_precision(pages, by_size=True)
+    matches = matches_of(pages)
+    everything, precision = joined(by_page), precision_of(matches, range(len(pages)), by_size=True)
     tall = everything.diameter >= SMALL_PX
     overall = _group(everything, tall, ap=precision.ap)
     counts = _counts(pages, everything)
@@ -133,8 +134,8 @@ def score_masks(pages: Sequence[Page]) -> MaskScores:
         best_f1=_best_f1(everything),
         counts=counts,
         groups={
-            "light": _by(lambda page: page.light, pages, by_page),
-            "form": _by(lambda page: page.form, pages, by_page),
+            "light": _by(lambda page: page.light, matches, by_page),
+            "form": _by(lambda page: page.form, matches, by_page),
             "size": _by_size(everything, tall, precision.ap_by_size),
         },
     )
@@ -152,13 +153,13 @@ def _group(outcomes: Outcomes, chosen: Flags, *, ap: float | None) -> GroupScore
 
 
 def _by(
-    property_of: Callable[[Page], str | None], pages: Sequence[Page], by_page: Sequence[Outcomes]
+    property_of: Callable[[Page], str | None], matches: Matches, by_page: Sequence[Outcomes]
 ) -> dict[str, GroupScores]:
-    groups = {}
+    groups, pages = {}, matches.pages
     for value in sorted({value for page in pages if (value := property_of(page)) is not None}):
         places = [place for place, page in enumerate(pages) if property_of(page) == value]
         outcomes = joined([by_page[place] for place in places])
-        ap = average_precision([pages[place] for place in places]).ap
+        ap = precision_of(matches, places).ap
         groups[value] = _group(outcomes, outcomes.diameter >= SMALL_PX, ap=ap)
     return groups
 

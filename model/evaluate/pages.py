@@ -51,38 +51,74 @@ class Paged(Struct, frozen=True, kw_only=True):
     """What of both sides was not compared."""
 
 
-def pages_of(predicted: Document, truth: Document, *, masks: bool, centres: bool) -> Paged:
+class Truth(Struct, frozen=True, kw_only=True):
+    """A truth that was read: of an annotation only what evaluation needs, so that its text can go."""
+
+    images: dict[str, ImageEntry] | None
+    """The images as ``named_images`` names them; None for a result list."""
+    caps: dict[str, list[CapRecord]]
+    """The caps of each image, by its name; none of a list, whose images only the predictions know."""
+    listed: Document | None = None
+    """A result list, which is read when the images are known."""
+    masks: bool
+    centres: bool
+
+
+def truth_of(document: Document, *, masks: bool, centres: bool) -> Truth:
+    """Reads a truth; caps as ``cap_of`` reads them. Without ``masks`` every one must have an id.
+
+    Raises DocumentError.
+    """
+    with _blamed_on("truth"):
+        images = _images(document)
+        if images is None:
+            return Truth(images=None, caps={}, listed=document, masks=masks, centres=centres)
+        of_image = _by_image(document)
+        caps = {
+            name: _caps(document, of_image.get(image.id, []), name, image, masks=masks, centres=centres)
+            for name, image in images.items()
+        }
+    return Truth(images=images, caps=caps, masks=masks, centres=centres)
+
+
+def pages_of(predicted: Document, truth: Truth) -> Paged:
     """The truth's images, with the caps of both sides.
 
     Images are paired as by ``partners_of``; a result list, which names none, goes by the other side's image
-    ids. Caps are read as by ``cap_of``; without ``masks`` every one must have an id. Raises DocumentError,
-    also where the two have no image in common.
+    ids. Raises DocumentError, also where the two have no image in common.
     """
-    with _blamed_on("truth"):
-        true_images, of_truth = _images(truth), _by_image(truth)
     with _blamed_on("predicted"):
         predicted_images, of_prediction = _images(predicted), _by_image(predicted)
-    if true_images is None and predicted_images is None:
+    if truth.images is None and predicted_images is None:
         raise DocumentError(
             "Neither side lists images, and their sizes are needed; give a COCO file with images."
         )
-    listed = true_images if true_images is not None else predicted_images or {}
-    partners, pairing = _partners(listed, true_images, predicted_images, of_truth, of_prediction)
+    with _blamed_on("truth"):
+        of_truth = _by_image(truth.listed) if truth.listed is not None else {}
+    listed = truth.images if truth.images is not None else predicted_images or {}
+    partners, pairing = _partners(listed, truth.images, predicted_images, of_truth, of_prediction)
     pages = []
     for name, image in listed.items():
         other = partners.get(name)
-        page = _empty_page(name, image)
         if other is not None and size_of(other) != size_of(image):
             raise DocumentError(
                 f"{name} has different sizes in the two files; they must show the same photo."
             )
         with _blamed_on("truth"):
-            caps = _caps(truth, of_truth.get(image.id, []), page, masks=masks, centres=centres)
-            page.truths.extend(caps)
+            truths = truth.caps.get(name, [])
+            if truth.listed is not None:
+                truths = _caps(
+                    truth.listed,
+                    of_truth.get(image.id, []),
+                    name,
+                    image,
+                    masks=truth.masks,
+                    centres=truth.centres,
+                )
         with _blamed_on("predicted"):
             indices = of_prediction.get(other.id, []) if other else []
-            page.predictions.extend(_caps(predicted, indices, page, masks=masks, centres=centres))
-        pages.append(page)
+            guesses = _caps(predicted, indices, name, image, masks=truth.masks, centres=truth.centres)
+        pages.append(_page(name, image, truths, guesses))
     return Paged(pages=pages, pairing=pairing)
 
 
@@ -156,28 +192,28 @@ def _by_image(document: Document) -> dict[Id | None, list[int]]:
     return indices
 
 
-def _empty_page(name: str, image: ImageEntry) -> Page:
+def _page(name: str, image: ImageEntry, truths: list[CapRecord], predictions: list[CapRecord]) -> Page:
     width, height = size_of(image)
     return Page(
         file_name=name,
         width=width,
         height=height,
-        truths=[],
-        predictions=[],
+        truths=truths,
+        predictions=predictions,
         light=text(image.keys.get("light")),
         form=text(image.keys.get("form")),
     )
 
 
 def _caps(
-    document: Document, indices: list[int], page: Page, *, masks: bool, centres: bool
+    document: Document, indices: list[int], name: str, image: ImageEntry, *, masks: bool, centres: bool
 ) -> list[CapRecord]:
     caps = []
+    width, height = size_of(image)
     for _, where, entry in objects_of("annotation", document.annotations, indices=indices, report=_stop):
-        with Reported(f"{where} of {page.file_name}", _stop):
-            cap = cap_of(entry, width=page.width, height=page.height, masks=masks, centres=centres)
-            caps.append(cap)
+        with Reported(f"{where} of {name}", _stop):
+            caps.append(cap_of(entry, width=width, height=height, masks=masks, centres=centres))
     ids = {cap.id for cap in caps}
     if not masks and (None in ids or len(ids) < len(caps)):
-        raise DocumentError(f"The annotations of {page.file_name} need an id each to be paired by it.")
+        raise DocumentError(f"The annotations of {name} need an id each to be paired by it.")
     return caps

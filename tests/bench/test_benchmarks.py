@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.bench.browser.editor import editor_rows
 from fairyring.app.bench.browser.page import page_rows
+from fairyring.app.bench.evaluation import evaluation_rows
 from fairyring.app.bench.fits import fit_rows
 from fairyring.app.bench.store import store_rows
 from fairyring.app.bench.timing import Row, p95_row, row
@@ -32,6 +33,13 @@ HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", 
                 "accept all 449: key to on disk": 1500,
                 "next image, 1280 × 720": 100,
                 "any image, 4000 × 3000": 400,
+            },
+        ),
+        (
+            evaluation_rows,
+            {
+                "evaluate centres, 1200 caps against as many: memory": 800,
+                "evaluate masks, 1200 caps against as many: memory": 800,
             },
         ),
         (page_rows, {"fairyring serve: typed to answering": 4}),

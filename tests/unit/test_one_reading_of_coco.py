@@ -19,7 +19,7 @@ from fairyring.model.coco.writing import shape_keys
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.caps import cap_of
-from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.centre_figures import CapPairing, evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import FoundCap
@@ -180,7 +180,7 @@ def test_an_evaluation_stops_and_names_it(row: Row, how: str) -> None:
     evaluate = {
         MASKS: evaluate_masks,
         CENTRES: evaluate_centres,
-        BY_ID: lambda predicted, truth: evaluate_centres(predicted, truth, by="id"),
+        BY_ID: lambda predicted, truth: evaluate_centres(predicted, truth, CapPairing(by="id")),
     }[how]
     document = document_with(row.keys)
     if how not in row.to:

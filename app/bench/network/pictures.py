@@ -14,7 +14,7 @@ from fairyring.app.bench.network.tables import CERTAIN
 from fairyring.model.coco.document import document_of
 from fairyring.model.errors import FileError
 from fairyring.model.evaluate.masks import score_masks
-from fairyring.model.evaluate.pages import pages_of
+from fairyring.model.evaluate.pages import pages_of, truth_of
 from fairyring.model.geometry.shapes import Outline, points_of_part
 from fairyring.model.photo import Pixels
 
@@ -27,7 +27,9 @@ SUBPIXEL = 4
 
 def draw_examples(predicted: dict[str, Any], photos: LabelledPhotos, out: Path) -> list[Path]:
     """Writes NAME-best.jpg, NAME-typical.jpg and NAME-worst.jpg, by AP, and returns them."""
-    paged = pages_of(document_of(predicted), document_of(photos.document), masks=True, centres=False)
+    paged = pages_of(
+        document_of(predicted), truth_of(document_of(photos.document), masks=True, centres=False)
+    )
     pages = paged.pages
     scores = [score_masks([page]).ap or 0.0 for page in pages]
     order = np.argsort(scores)

@@ -8,7 +8,7 @@ from typing import Any
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.coco.document import document_of
 from fairyring.model.contour.coco import contour_document
-from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.centre_figures import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.predictor import Detection

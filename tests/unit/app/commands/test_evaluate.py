@@ -119,3 +119,57 @@ def test_ids_that_are_of_other_caps_are_told(tmp_path: Path) -> None:
     told = fairyring("evaluate", "centres", renumbered, truth, "--by", "id")
     assert "Of 3 caps paired by id 3 lie further apart" in told.stderr
     assert "further apart" not in fairyring("evaluate", "centres", truth, truth, "--by", "id").stderr
+
+
+def centred(path: Path, *shifts: float | None) -> Path:
+    """Caps of the truth whose centres are off by so many pixels; None leaves one out."""
+    document = bed(0, 100, 200)
+    document["annotations"] = [
+        annotation | {"center": [annotation["id"] + 20 + shift, 20]}
+        for annotation, shift in zip(document["annotations"], shifts, strict=True)
+        if shift is not None
+    ]
+    path.write_text(json.dumps(document))
+    return path
+
+
+def test_two_runs_are_compared_in_pairs(tmp_path: Path) -> None:
+    truth = centred(tmp_path / "truth.json", 0, 0, 0)
+    first, second = centred(tmp_path / "a.json", 2, 4, 1), centred(tmp_path / "b.json", 1, 1, None)
+
+    figures = json.loads(invoke("centres", first, second, truth, "--json").stdout)
+
+    assert figures["first"]["px"]["mean"] == pytest.approx(7 / 3)
+    assert (figures["second"]["matched"], figures["second"]["missed"]) == (2, 1)
+    assert figures["difference"]["px"]["mean"] == -2.0
+    shown = invoke("centres", first, second, truth).stdout
+    assert "Of 2 caps the second is nearer in 2, the first in 0; 1 were found by the first alone" in shown
+
+
+def test_centres_of_one_run_come_with_a_row_a_cap_and_groups(tmp_path: Path) -> None:
+    truth, said = centred(tmp_path / "t.json", 0, 0, 0), centred(tmp_path / "s.json", 3, None, 5)
+
+    figures = json.loads(invoke("centres", said, truth, "--json").stdout)
+
+    assert [(cap["truth"], cap["outcome"], cap["dx"]) for cap in figures["caps"]] == [
+        (0, "matched", 3.0),
+        (200, "matched", 5.0),
+        (100, "missed", None),
+    ]
+    assert figures["groups"]["light"]["dark"]["missed"] == 1
+    assert "dark" in invoke("centres", said, truth).stdout
+
+
+def test_least_overlap_and_score_are_asked_for(predicted: Path, truth: Path) -> None:
+    def matched(*options: str) -> int:
+        return json.loads(invoke("centres", predicted, truth, "--json", *options).stdout)["matched"]
+
+    assert (matched(), matched("--score", "0.75"), matched("--score", "0.76")) == (2, 2, 0)
+    assert matched("--iou", "1") == 2
+
+
+def test_what_cannot_be_meant_is_wrong_use(truth: Path) -> None:
+    alone, overlap = invoke("centres", truth), invoke("centres", truth, truth, "--by", "id", "--iou", "0.7")
+    assert (alone.exit_code, overlap.exit_code) == (2, 2)
+    assert "last the truth" in alone.stderr
+    assert "no mask is read" in overlap.stderr

@@ -16,7 +16,7 @@ from fairyring.model.coco.faults import Fault
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.contour.estimate import estimate_priors
 from fairyring.model.errors import FairyringError
-from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.centre_figures import CapPairing, evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.importing.cap_checks import check_caps
@@ -113,7 +113,7 @@ def test_an_evaluation_ends_in_figures_or_in_one_sentence(
         for evaluate in (
             evaluate_masks,
             evaluate_centres,
-            partial(evaluate_centres, by="id"),
+            partial(evaluate_centres, pairing=CapPairing(by="id")),
             lambda document, _: estimate_priors(document, source="x"),
         ):
             try:

@@ -14,7 +14,13 @@ from hypothesis import strategies as st
 from pycocotools.coco import COCO
 from pycocotools.cocoeval import COCOeval
 
-from fairyring.model.evaluate.average_precision import average_precision, coco_of_pages
+from fairyring.model.evaluate.average_precision import (
+    AT_ONCE,
+    average_precision,
+    coco_of_pages,
+    matches_of,
+    precision_of,
+)
 from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.masks import score_masks
 from fairyring.model.evaluate.pages import Page
@@ -125,3 +131,25 @@ def test_a_bed_of_more_caps_than_count_can_be_found_whole() -> None:
     whole = Page(file_name="a.png", width=SIDE, height=SIDE, truths=caps, predictions=caps)
     found = average_precision([whole])
     assert (found.ap, found.ap50, found.ar) == (1, 1, 1)
+
+
+def test_of_many_images_and_of_some_of_them_it_is_pycocotools() -> None:
+    random = np.random.default_rng(0)
+    pages = []
+    for nth in range(2 * AT_ONCE + 5):
+        truths = [CapRecord(rle=ellipse(*random.uniform(20, 140, 2), 15, 12)) for _ in range(nth % 4)]
+        said = [CapRecord(rle=ellipse(*random.uniform(20, 140, 2), 15, 12), score=random.uniform(0, 1))]
+        pages.append(
+            Page(
+                file_name=f"{nth}.png",
+                width=SIDE,
+                height=SIDE,
+                truths=truths,
+                predictions=[*said, *(CapRecord(rle=cap.rle, score=random.uniform(0, 1)) for cap in truths)],
+            )
+        )
+    matches = matches_of(pages)
+    some = [3, 4, 21, 44]
+    for chosen in (range(len(pages)), some):
+        expected = mean(reference([pages[place] for place in chosen]).eval["precision"][:, :, 0, 0, 2])
+        assert precision_of(matches, chosen).ap == pytest.approx(expected, abs=1e-12)

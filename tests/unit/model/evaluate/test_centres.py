@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from fairyring.model.coco.document import document_of
 from fairyring.model.errors import FairyringError
-from fairyring.model.evaluate.centres import centre_error, compare, evaluate_centres, summarise
+from fairyring.model.evaluate.centre_figures import CapPairing, evaluate_centres
+from fairyring.model.evaluate.centres import centre_error, compare, summarise
 from fairyring.model.evaluate.pages import CapRecord, DocumentError
 from fairyring.model.geometry.raster import rle_of_mask
 from fairyring.model.geometry.shapes import Circle, polygon_of_shape
@@ -149,7 +150,7 @@ def document(*annotations: dict[str, Any], name: str = "beds/a.jpg", image_id: i
 
 
 def figures_of(predicted: Any, truth: Any, **how: Any) -> dict[str, Any]:
-    return evaluate_centres(document_of(predicted), document_of(truth), **how)
+    return evaluate_centres(document_of(predicted), document_of(truth), CapPairing(**how))
 
 
 def disc(cx: float, cy: float, r: float = 15.0) -> list[list[float]]:
@@ -163,10 +164,15 @@ def test_the_command_s_figures_have_the_agreed_shape() -> None:
     )
     predicted = document({"segmentation": disc(52, 51), "center": [52, 51]}, name="a.jpg", image_id=1)
 
-    figures = json.loads(json.dumps(figures_of(predicted, truth)))
+    figures = msgspec.json.decode(msgspec.json.encode(figures_of(predicted, truth)))
 
     # |2| / 200 + |1| / 100 = 2 %; √5 px, over 30 px.
     spread = {"mean": pytest.approx(2.0), "median": pytest.approx(2.0), "p95": pytest.approx(2.0)}
+    assert [figures.pop(key).keys() for key in ("intervals", "groups")] == [
+        {"cdr", "px", "relative"},
+        {"size", "visibility", "light", "form"},
+    ]
+    assert [row["outcome"] for row in figures.pop("caps")] == ["matched", "missed"]
     assert figures == {
         "cdr": spread,
         "px": dict.fromkeys(("mean", "median", "p95"), pytest.approx(5**0.5)),

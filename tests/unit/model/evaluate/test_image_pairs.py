@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from fairyring.model.coco.document import document_of
-from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.centre_figures import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.evaluate.pages import DocumentError
 from tests.support.squares import HEIGHT, WIDTH

@@ -3,7 +3,7 @@
 import pytest
 
 from fairyring.model.coco.document import document_of
-from fairyring.model.evaluate.centres import evaluate_centres
+from fairyring.model.evaluate.centre_figures import CapPairing, evaluate_centres
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import create_project
@@ -93,6 +93,6 @@ def test_caps_are_paired_by_id_after_a_round_trip(strangers, out, tmp_path):
     for document in (said, truth):
         for entry in document["annotations"]:
             entry["center"] = entry["bbox"][:2]
-    figures = evaluate_centres(document_of(said), document_of(truth), by="id")
+    figures = evaluate_centres(document_of(said), document_of(truth), CapPairing(by="id"))
     assert (figures["matched"], figures["missed"], figures["extra"]) == (3, 0, 0)
     assert figures["px"]["mean"] == 0
