@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 MEASURES = {"cdr": "CDR, %", "px": "pixels", "relative": "error / diameter"}
 
+FOUND = ("S50", "S75", "S50_strict", "S50_small", "IoU85", "excursion")
+
 commands = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Measure predictions against truth.")
 
 
@@ -167,11 +169,11 @@ def _print_masks(figures: dict[str, Any]) -> None:
     from rich.table import Table
 
     console = console_of_tables()
-    for names in (("AP", "AP50", "AP75", "AR", "P", "R"), ("S50", "S75", "S50_strict", "S50_small")):
+    for names in (("AP", "AP50", "AP75", "AR", "P", "R"), FOUND):
         overall = Table(*names)
         overall.add_row(*(_shown(figures[name]) for name in names))
         console.print(overall)
-    columns = ("count", "S50", "S75", "S50_strict", "AP")
+    columns = ("count", "S50", "S75", "S50_strict", "AP", "IoU85", "excursion")
     groups = Table("by", "", *columns)
     for property_, values in figures["groups"].items():
         for value, group in values.items():

@@ -20,8 +20,9 @@ from fairyring.model.evaluate.outcomes import LEAST_SCORE, Flags, Outcomes, join
 from fairyring.model.evaluate.pages import Page, Paged, pages_of, truth_of
 from fairyring.model.evaluate.sizes import LARGE_AREA, MEDIUM_AREA, SMALL_PX
 
-CAPITALS = {"ap": "AP", "ap50": "AP50", "ap75": "AP75", "ar": "AR", "p": "P", "r": "R", "f1": "F1"} | {
-    f"s{rest}": f"S{rest}" for rest in ("50", "75", "50_strict", "50_small")
+CAPITALS = {name: name.upper() for name in ("ap", "ap50", "ap75", "ar", "p", "r", "f1")} | {
+    **{f"s{rest}": f"S{rest}" for rest in ("50", "75", "50_strict", "50_small")},
+    "iou85": "IoU85",
 }
 """Names of the figures as they are written, which are those of the literature."""
 
@@ -34,6 +35,10 @@ class GroupScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
     s50: float | None
     s75: float | None
     s50_strict: float | None
+    iou85: float | None
+    """Share of the found caps whose outline is fine, and of those whose outline strays: of all sizes but in
+    the groups by size. See ``Outcomes``."""
+    excursion: float | None
     count: int
     """How many caps the success rates are shares of."""
 
@@ -84,6 +89,11 @@ class MaskScores(Struct, frozen=True, kw_only=True, rename=CAPITALS):
     """The same without duplicates and without caps joined to others: ``Outcomes.alone``."""
     s50_small: float | None
     """S50 of the caps under 30 px (``Outcomes.diameter``)."""
+    iou85: float | None
+    """Share of the found caps of all sizes whose outline has an IoU of .85 or more."""
+    excursion: float | None
+    """Share of the found caps of all sizes whose outline strays somewhere by more than 2 px and 6 % of the
+    diameter."""
     best_f1: BestF1
     score: float = LEAST_SCORE
     """Least score of the predictions that count in P, R and the success rates."""
@@ -118,7 +128,7 @@ def score_masks(pages: Sequence[Page]) -> MaskScores:
     matches = matches_of(pages)
     everything, precision = joined(by_page), precision_of(matches, range(len(pages)), by_size=True)
     tall = everything.diameter >= SMALL_PX
-    overall = _group(everything, tall, ap=precision.ap)
+    overall = _group(everything, tall, outlines=everything.found, ap=precision.ap)
     counts = _counts(pages, everything)
     return MaskScores(
         ap=precision.ap,
@@ -130,7 +140,9 @@ def score_masks(pages: Sequence[Page]) -> MaskScores:
         s50=overall.s50,
         s75=overall.s75,
         s50_strict=overall.s50_strict,
-        s50_small=_group(everything, ~tall, ap=None).s50,
+        s50_small=_share(everything.found[~tall].sum(), int((~tall).sum())),
+        iou85=overall.iou85,
+        excursion=overall.excursion,
         best_f1=_best_f1(everything),
         counts=counts,
         groups={
@@ -141,13 +153,18 @@ def score_masks(pages: Sequence[Page]) -> MaskScores:
     )
 
 
-def _group(outcomes: Outcomes, chosen: Flags, *, ap: float | None) -> GroupScores:
+def _group(outcomes: Outcomes, chosen: Flags, *, outlines: Flags, ap: float | None) -> GroupScores:
+    """The figures of the ``chosen`` caps, and of those ``outlines`` that were found."""
     count = int(chosen.sum())
+    judged = outcomes.found & outlines
+    outline_count = int(judged.sum())
     return GroupScores(
         ap=ap,
         s50=_share(outcomes.found[chosen].sum(), count),
         s75=_share(outcomes.closely[chosen].sum(), count),
         s50_strict=_share(outcomes.alone[chosen].sum(), count),
+        iou85=_share(outcomes.fine[judged].sum(), outline_count),
+        excursion=_share(outcomes.strays[judged].sum(), outline_count),
         count=count,
     )
 
@@ -160,19 +177,20 @@ def _by(
         places = [place for place, page in enumerate(pages) if property_of(page) == value]
         outcomes = joined([by_page[place] for place in places])
         ap = precision_of(matches, places).ap
-        groups[value] = _group(outcomes, outcomes.diameter >= SMALL_PX, ap=ap)
+        groups[value] = _group(outcomes, outcomes.diameter >= SMALL_PX, outlines=outcomes.found, ap=ap)
     return groups
 
 
 def _by_size(outcomes: Outcomes, tall: Flags, precision: tuple[float | None, ...]) -> dict[str, GroupScores]:
     small, medium, large = precision
     below_medium, below_large = outcomes.area < MEDIUM_AREA, outcomes.area < LARGE_AREA
-    return {
-        "s": _group(outcomes, tall & below_medium, ap=small),
-        "m": _group(outcomes, tall & below_large & ~below_medium, ap=medium),
-        "l": _group(outcomes, tall & ~below_large, ap=large),
-        "under_30_px": _group(outcomes, ~tall, ap=None),
+    sizes = {
+        "s": (tall & below_medium, small),
+        "m": (tall & below_large & ~below_medium, medium),
+        "l": (tall & ~below_large, large),
+        "under_30_px": (~tall, None),
     }
+    return {name: _group(outcomes, chosen, outlines=chosen, ap=ap) for name, (chosen, ap) in sizes.items()}
 
 
 def _counts(pages: Sequence[Page], outcomes: Outcomes) -> Counts:

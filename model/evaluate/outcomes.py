@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.evaluate.excursions import strays
 from fairyring.model.evaluate.matching import LEAST_IOU, mask_of, pairs_by_score, unmatched_in_ignored
 from fairyring.model.evaluate.pages import Page
 from fairyring.model.geometry.raster import area_of_rle, covered_matrix, iou_matrix
@@ -21,6 +22,8 @@ from fairyring.model.geometry.raster import area_of_rle, covered_matrix, iou_mat
 LEAST_SCORE = 0.5
 """Least score of a prediction that counts as certain."""
 CLOSE_IOU = 0.75
+FINE_IOU = 0.85
+"""IoU of outlines that a person hardly needs to touch."""
 COVERING = 0.5
 """A prediction covers a cap if it covers this share of the cap's pixels."""
 
@@ -41,6 +44,10 @@ class Outcomes:
     """(n,) has a partner of score ≥ .5 at IoU ≥ .5."""
     closely: Flags
     """(n,) the same at IoU ≥ .75."""
+    fine: Flags
+    """(n,) found, and its partner's IoU is ≥ .85."""
+    strays: Flags
+    """(n,) found, and its partner's outline has an excursion: see ``excursions.strays``."""
     alone: Flags
     """(n,) found, and exactly one prediction of score ≥ .5 covers half of the cap or more, and that
     prediction covers half or more of no other cap. (Whoever overlaps a cap with IoU ≥ .5 covers half of it,
@@ -67,6 +74,7 @@ def outcomes_of_page(page: Page) -> Outcomes:
     dropped = _flags(len(predictions), unmatched_in_ignored(page.truths, page.predictions, matched=matched))
     firm = (scores >= LEAST_SCORE) & ~dropped
     found = _found(pairs, firm, count=len(real))
+    partners = [(truth, prediction) for truth, prediction in pairs if firm[prediction]]
     area = np.array([area_of_rle(rle) for rle in truths], dtype=np.float64)
     covers = covered_matrix(truths, predictions)[:, firm] >= COVERING
     covers_one = covers & (covers.sum(axis=0) == 1)
@@ -77,6 +85,8 @@ def outcomes_of_page(page: Page) -> Outcomes:
         ),
         found=found,
         closely=_found(pairs_by_score(iou, scores, least=CLOSE_IOU), firm, count=len(real)),
+        fine=_flags(len(real), {t for t, p in partners if iou[t, p] >= FINE_IOU}),
+        strays=_flags(len(real), {t for t, p in partners if strays(predictions[p], truths[t])}),
         alone=found & (covers.sum(axis=1) == 1) & covers_one.any(axis=1),
         score=scores,
         right=_flags(len(predictions), matched),

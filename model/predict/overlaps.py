@@ -9,6 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.predict.smoothing import without_horns
+
 CONFIDENT = 0.3
 """Least score of an instance that takes pixels from others."""
 MOST_TAKEN = 0.5
@@ -50,9 +52,10 @@ def resolve_overlaps(
     """The windows cut to the photo, each logit lowered by the largest that another, confident one has there.
 
     Where two caps touch, the edge then runs where they are equally sure. Components under half of the
-    largest are left out.
+    largest are left out, and so are horns, before they take pixels: a tongue would be left in another cap.
     """
     inside = [without_specks(cut(window, width=width, height=height)) for window in windows]
+    inside = [replace(window, logits=without_horns(window.logits)) for window in inside]
     first, second = np.zeros((2, height, width), np.float32)
     owner = np.full((height, width), -1, np.int32)
     for nth, (window, score) in enumerate(zip(inside, scores, strict=True)):

@@ -21,24 +21,37 @@ MOST_LOST = 0.25
 def smoothed(logits: NDArray[np.float32]) -> NDArray[np.float32]:
     """(h, w) logits of a cap: narrow notches are filled, unless another lies there; horns are taken off."""
     held = logits > 0
-    area = np.count_nonzero(held)
+    area = int(np.count_nonzero(held))
     if area < FEWEST:
         return logits
-    diameter = (4 * area / np.pi) ** 0.5
-    reach = int(np.ceil(CLOSED * diameter)) + 1
-    around = np.pad(held, reach)
-    closed = ~_grown(~_grown(around, CLOSED * diameter), CLOSED * diameter)
+    by = CLOSED * _diameter(area)
+    reach = int(np.ceil(by)) + 1
+    closed = ~_grown(~_grown(np.pad(held, reach), by), by)
     closed = closed[reach:-reach, reach:-reach]
     filled = np.where(closed & ~held & (logits > OTHERS), np.float32(HARDLY), logits)
-    around = np.pad(filled > 0, reach)
-    opened = _grown(~_grown(~around, OPENED * diameter), OPENED * diameter)
+    return without_horns(filled, diameter=_diameter(area))
+
+
+def without_horns(logits: NDArray[np.float32], *, diameter: float | None = None) -> NDArray[np.float32]:
+    """(h, w) logits of a cap, negated where it is narrow beside its diameter: of its pixels, unless given."""
+    held = logits > 0
+    area = int(np.count_nonzero(held))
+    if area < FEWEST:
+        return logits
+    by = OPENED * (diameter or _diameter(area))
+    reach = int(np.ceil(by)) + 1
+    opened = _grown(~_grown(~np.pad(held, reach), by), by)
     opened = opened[reach:-reach, reach:-reach]
     if np.count_nonzero(opened) < (1 - MOST_LOST) * area:
-        return filled
-    return np.where((filled > 0) & ~opened, -filled, filled)
+        return logits
+    return np.where(held & ~opened, -logits, logits)
+
+
+def _diameter(area: int) -> float:
+    return float(4 * area / np.pi) ** 0.5
 
 
 def _grown(mask: NDArray[np.bool_], by: float) -> NDArray[np.bool_]:
     """A mask with all pixels that lie within so many of it."""
-    away = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    away = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.asarray(away) <= by

@@ -22,6 +22,7 @@ PAPER_LIGHTS = {"top": 0.9800, "side": 0.9723, "dark": 0.9873}
 PAPER_CDR = 0.30
 """The paper's mean CDR, percent."""
 
+SUCCESS_FIGURES = ("S50", "S75", "S50_strict", "AP", "IoU85", "excursion")
 MASK_FIGURES = ("AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "S50_small")
 
 
@@ -94,7 +95,7 @@ def mask_row(name: str, figures: dict[str, Any]) -> dict[str, Any]:
 
 def _row(name: str, scores: dict[str, Any], paper: float | None) -> dict[str, Any]:
     count = scores.get("count", scores.get("counts", {}).get("truths"))
-    figures = {key: _rounded(scores.get(key)) for key in ("S50", "S75", "S50_strict", "AP")}
+    figures = {key: _rounded(scores.get(key)) for key in SUCCESS_FIGURES}
     return {"caps_of": name, "caps": count, **figures, "paper_S50": paper}
 
 

@@ -37,9 +37,18 @@ def test_the_command_s_figures_have_the_agreed_keys() -> None:
     figures = json.loads(json.dumps(figures_of(document({"segmentation": square(0, 0)}, id=1), truth)))
 
     contract = {"AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict", "groups"}
-    assert set(figures) == contract | {"S50_small", "best_f1", "score", "counts", "pairing"}
+    more = {"S50_small", "IoU85", "excursion", "best_f1", "score", "counts", "pairing"}
+    assert set(figures) == contract | more
     assert figures["groups"]["light"] == {
-        "side": {"AP": 1.0, "S50": 1.0, "S75": 1.0, "S50_strict": 1.0, "count": 1}
+        "side": {
+            "AP": 1.0,
+            "S50": 1.0,
+            "S75": 1.0,
+            "S50_strict": 1.0,
+            "IoU85": 1.0,
+            "excursion": 0.0,
+            "count": 1,
+        }
     }
     assert figures["best_f1"] == {"F1": 1.0, "score": 1.0, "P": 1.0, "R": 1.0}
     assert figures["score"] == 0.5

@@ -141,3 +141,31 @@ def test_an_empty_mask_is_no_cap() -> None:
     masks = squares((2, 2), (2, 2))
     masks[0] = False
     assert distinct(masks, [0.9, 0.8]) == [1]
+
+
+def disc(x: float, *, side: int = 90) -> NDArray[np.float32]:
+    """Logits of a disc of 20 px about (x, 30), 0 on its rim and one more a pixel towards its middle."""
+    rows, columns = np.mgrid[:60, :side] + 0.5
+    return (20 - np.hypot(columns - x, rows - 30)).astype(np.float32)
+
+
+@pytest.mark.parametrize("narrow", [1, 2, 3])
+def test_no_tongue_of_one_cap_is_left_inside_another(narrow: int) -> None:
+    tongued = disc(66)
+    tongued[29 : 29 + narrow, 20:46] = 30.0
+    cap, other = resolve_overlaps(
+        [Window(x=0, y=0, logits=disc(24)), Window(x=0, y=0, logits=tongued)], [0.8, 0.9], width=90, height=60
+    )
+    np.testing.assert_array_equal(cap.logits > 0, disc(24) > 0)
+    # Beside its disc a horn leaves no more than a stub.
+    np.testing.assert_array_equal((other.logits > 0)[:, :44], False)
+    assert ((other.logits > 0) == (disc(66) > 0))[:, 48:].all()
+
+
+def test_a_cap_in_front_of_another_keeps_its_pixels() -> None:
+    behind, front = disc(30), 60 * np.sign(disc(45))
+    cap, other = resolve_overlaps(
+        [Window(x=0, y=0, logits=behind), Window(x=0, y=0, logits=front)], [0.9, 0.8], width=90, height=60
+    )
+    np.testing.assert_array_equal((cap.logits > 0) & (other.logits > 0), False)
+    assert (other.logits > 0)[disc(45) > 0].all()
