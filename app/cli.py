@@ -17,6 +17,7 @@ from fairyring.app.commands import (
     imports,
     network,
     project,
+    review,
     serve,
     synth,
 )
@@ -43,6 +44,7 @@ app.command("train")(network.train)
 app.command("predict")(network.predict)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
+app.command("review")(review.review)
 app.add_typer(evaluate.commands, name="evaluate")
 app.add_typer(benchmarks.commands, name="bench")
 

@@ -61,6 +61,14 @@ def load_annotation(connection: Connection, uid: str) -> Annotation | None:
     return None if row is None else annotation_of(row)
 
 
+def load_editors(connection: Connection, image_id: int) -> dict[str, str]:
+    """Who edited each live annotation of an image last, by uid."""
+    statement = select(annotation.c.uid, annotation.c.edited_by).where(
+        annotation.c.image == image_id, annotation.c.deleted == 0
+    )
+    return {row.uid: row.edited_by for row in connection.execute(statement)}
+
+
 def load_predictions(connection: Connection, image_id: int) -> list[Prediction]:
     """All predictions of the latest run that saw an image, deleted or accepted ones too."""
     return _predictions(connection, _of_latest_run(image_id))

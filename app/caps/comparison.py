@@ -15,12 +15,10 @@ from typing import TypeVar
 import anyio.to_thread
 
 from fairyring.app.caps.image_caps import ImageCaps
+from fairyring.app.caps.records import prediction_record, truth_record
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.evaluate import centres
-from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
-from fairyring.model.geometry.raster import rle_of_outline
-from fairyring.model.geometry.shapes import diameter_of_shape
 from fairyring.storage.comparisons import Comparison, store_comparison
 from fairyring.storage.contents import load_annotations, load_latest_run, load_predictions, load_version
 from fairyring.storage.images import get_image
@@ -39,8 +37,8 @@ def compare(
     image: Image, annotations: Sequence[Annotation], predictions: Sequence[Prediction]
 ) -> centres.Comparison:
     """Pairs the caps of an image. Indices are those of ``annotations`` and ``predictions``."""
-    truths = [_truth(annotation, image) for annotation in annotations]
-    guesses = [_guess(prediction, image) for prediction in predictions]
+    truths = [truth_record(annotation, image) for annotation in annotations]
+    guesses = [prediction_record(prediction, image) for prediction in predictions]
     return centres.compare(truths, guesses, width=image.width, height=image.height)
 
 
@@ -161,19 +159,3 @@ def _compared(
         dx=dx,
         dy=dy,
     )
-
-
-def _truth(annotation: Annotation, image: Image) -> CapRecord:
-    marked = annotation.cap.mark is not None
-    return CapRecord(
-        id=annotation.uid,
-        rle=rle_of_outline(covered_by(annotation), height=image.height, width=image.width),
-        centre=annotation.centre if marked else None,
-        diameter=diameter_of_shape(annotation.whole) if annotation.whole else None,
-        ignored=annotation.cap.ignored,
-    )
-
-
-def _guess(prediction: Prediction, image: Image) -> CapRecord:
-    rle = rle_of_outline(prediction.visible, height=image.height, width=image.width)
-    return CapRecord(id=prediction.id, rle=rle, centre=prediction.centre)

@@ -1,4 +1,4 @@
-"""JSON files that commands write, and the names of those they read."""
+"""Files that commands write, and the names of those they read."""
 
 from __future__ import annotations
 
@@ -16,9 +16,14 @@ from fairyring.model.whole_files import written_whole
 def write_json(document: Any, path: Path) -> None:
     """Writes a JSON file, gzipped if its name says so, whole or not at all. Raises FileError."""
     raw = json.dumps(document).encode()
+    write_bytes(gzip.compress(raw, mtime=0) if path.suffix == ".gz" else raw, path)
+
+
+def write_bytes(data: bytes, path: Path) -> None:
+    """Writes a file whole or not at all. Raises FileError."""
     try:
         with written_whole(path) as fresh:
-            fresh.write_bytes(gzip.compress(raw, mtime=0) if path.suffix == ".gz" else raw)
+            fresh.write_bytes(data)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}.") from error
 

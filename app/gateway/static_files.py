@@ -18,9 +18,8 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from fairyring.app.gateway.compressed import FOR_EVER, compressed
+from fairyring.app.static_folder import STATIC
 
-STATIC = Path(__file__).resolve().parents[2] / "static"
-"""The folder with the browser's files: beside ``app`` in a checkout, and where the wheel puts it."""
 MEDIA_TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".html": "text/html"}
 
 _IMPORT = re.compile(r'^(?:import|export)\b[^"();]*?\bfrom\s*"([^"]+)"|^import\s*"([^"]+)"', re.MULTILINE)

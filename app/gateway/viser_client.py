@@ -20,7 +20,8 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from fairyring.app.gateway.compressed import FOR_EVER, compressed
-from fairyring.app.gateway.static_files import STATIC, media_type_of, version_of
+from fairyring.app.gateway.static_files import media_type_of, version_of
+from fairyring.app.static_folder import STATIC
 from fairyring.model.errors import FairyringError
 
 START, MODULE, STYLES, DECODER = "start.js", "client.js", "client.css", "zstd.wasm"

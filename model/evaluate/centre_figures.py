@@ -83,12 +83,12 @@ def evaluated(predicted: Document, truth: Truth, pairing: CapPairing) -> Evaluat
         cdr_mean = summarise(errors).cdr.mean
         images.append({"file_name": page.file_name, "cdr_mean": cdr_mean, "count": len(errors)})
         apart += sum(error.relative is not None and error.relative > HALF for error in errors)
-    figures = _figures(caps) | {
+    figures = figures_of_caps(caps) | {
         "extra": sum(cap.truth is None for cap in caps),
         "images": images,
         "pairing": to_builtins(paged.pairing) | {"apart": apart if pairing.by == "id" else 0},
         "groups": {
-            kind: {value: _figures(some) for value, some in groups.items()}
+            kind: {value: figures_of_caps(some) for value, some in groups.items()}
             for kind, groups in grouped(caps, paged.pages).items()
         },
         "caps": [cap.row for cap in caps],
@@ -131,7 +131,7 @@ def _refused_as_missed(comparison: Comparison, predictions: Sequence[CapRecord])
     )
 
 
-def _figures(caps: Sequence[Measured]) -> dict[str, Any]:
+def figures_of_caps(caps: Sequence[Measured]) -> dict[str, Any]:
     """Figures of some caps: errors, their intervals, and how many were found."""
     errors = [cap.error for cap in caps if cap.error]
     images = np.array([cap.page for cap in caps if cap.error], np.int64)

@@ -18,12 +18,13 @@ DRAWINGS = {
         cli
         commands
         bench  demo  gateway
+        report
         panels
         live
-        jobs
+        jobs  review
         caps  weights
         workers
-        protocol  addresses  settings  editor_commands
+        protocol  addresses  settings  editor_commands  static_folder
     """,
     "storage": """
         importing  exporting  backup

@@ -1,0 +1,122 @@
+"""Plots of a review as SVG: CDR by image (as the paper's Figure 19), and where predicted centres lie."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from fairyring.app.panels.markup import Markup, element
+from fairyring.app.review.figures import ReviewedCap
+
+WIDTH, HEIGHT = 720, 260
+LEFT, BOTTOM = 48, 28
+"""Room for the numbers at the axes."""
+SIDE = 320
+WIDEST = 48
+"""Of a bar."""
+MOST_IMAGES = 120
+"""More bars than that cannot be told apart."""
+TICKS = 4
+
+
+def cdr_by_image(images: Sequence[dict[str, Any]]) -> Markup:
+    """A bar for the mean CDR of each image, highest first, with the floor of its marks as a line across."""
+    measured = [row for row in images if row["cdr"]["mean"] is not None]
+    shown = sorted(measured, key=lambda row: row["cdr"]["mean"], reverse=True)[:MOST_IMAGES]
+    if not shown:
+        return element("p", "No marked cap was predicted, so there is nothing to plot.")
+    top = 1.05 * max(row["cdr"]["mean"] for row in shown)
+    step = min((WIDTH - LEFT) / len(shown), WIDEST)
+    bars = [_bar(row, LEFT + nth * step, step, top) for nth, row in enumerate(shown)]
+    left_out = "" if len(shown) == len(measured) else f" The {MOST_IMAGES} highest of {len(measured)}."
+    caption = f"Mean CDR by image, percent; the dark line is what the marks themselves are off by.{left_out}"
+    return _figure(caption, WIDTH, HEIGHT, *_scale(top), *bars)
+
+
+def shifts(caps: Sequence[ReviewedCap]) -> Markup:
+    """A dot for each cap where its predicted centre lies from the marked one; the ellipse holds 95 of 100."""
+    errors = [cap.measured.error for cap in caps if cap.measured.error]
+    if len(errors) < 3:
+        return element("p", "Too few marked caps were predicted to show how centres shift.")
+    moves = np.array([(error.dx, error.dy) for error in errors])
+    reach = 1.1 * max(float(np.quantile(np.abs(moves), 0.98)), 0.1)
+    scale = SIDE / 2 / reach
+    inside = moves[(np.abs(moves) <= reach).all(axis=1)]
+    dots = [element("circle", cx=_at(x, scale), cy=_at(y, scale), r=2, class_="dot") for x, y in inside]
+    mean = moves.mean(axis=0)
+    axes = (
+        element("line", x1=0, x2=SIDE, y1=SIDE / 2, y2=SIDE / 2, class_="axis"),
+        element("line", y1=0, y2=SIDE, x1=SIDE / 2, x2=SIDE / 2, class_="axis"),
+    )
+    cross = element("circle", cx=_at(mean[0], scale), cy=_at(mean[1], scale), r=4, class_="mean")
+    caption = (
+        f"Predicted minus marked centre, pixels, edges at ±{reach:.1f}; on the whole "
+        f"{mean[0]:+.2f} right and {mean[1]:+.2f} down. {len(moves) - len(inside)} lie further out."
+    )
+    return _figure(caption, SIDE, SIDE, *axes, *dots, _ellipse(moves, scale), cross)
+
+
+def _figure(caption: str, width: int, height: int, *drawn: Markup) -> Markup:
+    svg = element(
+        "svg",
+        *drawn,
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"0 0 {width} {height}",
+        width=width,
+        height=height,
+        role="img",
+        aria_label=caption,
+    )
+    return element("figure", svg, element("figcaption", caption))
+
+
+def _bar(row: dict[str, Any], x: float, step: float, top: float) -> Markup:
+    mean, floor = row["cdr"]["mean"], row["floor"]["cdr_mean"]
+    told = f"{row['file_name']}: CDR {mean:.3f} %" + ("" if floor is None else f", floor {floor:.3f} %")
+    tall, wide = _height(mean, top), max(step - 2, 1)
+    bar = element(
+        "rect", x=round(x, 1), y=round(HEIGHT - BOTTOM - tall, 1), width=round(wide, 1), height=round(tall, 1)
+    )
+    if floor is None:
+        return element("g", element("title", told), bar, class_="bar")
+    y = round(HEIGHT - BOTTOM - _height(floor, top), 1)
+    line = element("line", x1=round(x, 1), x2=round(x + wide, 1), y1=y, y2=y, class_="floor")
+    return element("g", element("title", told), bar, line, class_="bar")
+
+
+def _scale(top: float) -> list[Markup]:
+    """The numbers along the left side, with a line across for each."""
+    marks = []
+    for nth in range(TICKS + 1):
+        value = top * nth / TICKS
+        y = round(HEIGHT - BOTTOM - _height(value, top), 1)
+        marks.append(element("line", x1=LEFT, x2=WIDTH, y1=y, y2=y, class_="axis"))
+        marks.append(element("text", f"{value:.2f}", x=LEFT - 6, y=y + 4, class_="number"))
+    return marks
+
+
+def _height(value: float, top: float) -> float:
+    return min(value / top, 1.0) * (HEIGHT - BOTTOM - 8)
+
+
+def _at(value: float, scale: float) -> float:
+    return round(SIDE / 2 + value * scale, 1)
+
+
+def _ellipse(moves: np.ndarray[Any, np.dtype[np.float64]], scale: float) -> Markup:
+    """Where 95 of 100 lie if they scatter normally: 2.448 standard deviations along each of two axes."""
+    values, vectors = np.linalg.eigh(np.cov(moves.T))
+    radii = 2.448 * np.sqrt(np.maximum(values, 0)) * scale
+    angle = float(np.degrees(np.arctan2(vectors[1, 1], vectors[0, 1])))
+    x, y = (_at(float(mean), scale) for mean in moves.mean(axis=0))
+    return element(
+        "ellipse",
+        cx=x,
+        cy=y,
+        rx=round(float(radii[1]), 1),
+        ry=round(float(radii[0]), 1),
+        transform=f"rotate({angle:.1f} {x} {y})",
+        class_="spread",
+    )

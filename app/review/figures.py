@@ -1,0 +1,177 @@
+"""The figures of a review: CDR beside what a person's hand is off by, of all caps, of groups and of images.
+
+A figure without its floor would make a network look wrong by what is the annotator's own noise.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from msgspec import structs, to_builtins
+
+from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
+from fairyring.model.contour.marks import reconstruction_of_mark
+from fairyring.model.evaluate.cap_rows import Measured, measured_caps
+from fairyring.model.evaluate.centre_figures import figures_of_caps, grouped
+from fairyring.model.evaluate.centres import compare, summarise
+from fairyring.model.evaluate.human_floor import cdr_of_noise
+from fairyring.model.evaluate.pages import Page
+from fairyring.model.progress import Progress, silent
+from fairyring.storage.project import Project
+from fairyring.storage.records import Annotation, Image
+
+UNSURE = 0.05
+"""A mark whose centre is off by more than this share of the cap's diameter is an unsure one."""
+MOST_WORST = 24
+"""How many of the worst caps are listed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ReviewedCap:
+    """A cap or an extra prediction, measured, with what the review adds."""
+
+    measured: Measured
+    image: int
+    annotator: str | None = None
+    """Who edited it last; None of an extra prediction."""
+    floor: float | None = None
+    """CDR that its mark has by itself, percent; None where that is not known, or nothing is marked."""
+    is_unsure: bool = False
+    is_doubtful: bool = False
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Review:
+    """What a reviewer looks at."""
+
+    images: list[Image]
+    """Those somebody worked on, by name."""
+    pages: list[Page]
+    """The same, without their caps."""
+    caps: list[ReviewedCap]
+    untouched: list[str]
+    """File names of the images that nobody has worked on."""
+    left_out: int
+    """How many caps were left out as doubtful or unsure."""
+
+
+def review_of(project: Project, *, only_sure: bool = False, progress: Progress = silent) -> Review:
+    """Compares every image that somebody worked on with the latest predictions of it.
+
+    Args:
+        project: whose images.
+        only_sure: leaves out caps that are doubtful, and those whose mark hardly determines a centre.
+        progress: called once an image; what it raises ends the review.
+
+    Raises:
+        StoreError: the database cannot be read.
+    """
+    images: list[Image] = []
+    pages: list[Page] = []
+    caps: list[ReviewedCap] = []
+    left_out = 0
+    with project.read() as connection:
+        numbers, untouched = worked_on(connection)
+        for done, seen in enumerate(reviewed_images(connection, numbers)):
+            progress(done, len(numbers), "Comparing caps with predictions")
+            found = _caps_of(seen, place=len(pages))
+            kept = [cap for cap in found if not (only_sure and (cap.is_unsure or cap.is_doubtful))]
+            left_out += len(found) - len(kept)
+            images.append(seen.image)
+            pages.append(structs.replace(seen.page, truths=[], predictions=[]))
+            caps += kept
+    return Review(images=images, pages=pages, caps=caps, untouched=untouched, left_out=left_out)
+
+
+def figures_of(review: Review) -> dict[str, Any]:
+    """What ``fairyring review --json`` prints: figures of all caps, of groups, images and annotators."""
+    reviewed = {cap.measured: cap for cap in review.caps}
+    of_image, of_annotator = defaultdict(list), defaultdict(list)
+    for cap in review.caps:
+        of_image[cap.measured.page].append(cap)
+        if cap.annotator is not None:
+            of_annotator[cap.annotator].append(cap)
+    groups = {
+        kind: {value: _figures([reviewed[each] for each in some]) for value, some in values.items()}
+        for kind, values in grouped(list(reviewed), review.pages).items()
+    }
+    groups["annotator"] = {name: _figures(caps) for name, caps in sorted(of_annotator.items())}
+    return _figures(review.caps) | {
+        "images": [_image_figures(image, of_image[place]) for place, image in enumerate(review.images)],
+        "groups": groups,
+        "worst": [_row(cap) for cap in worst_caps(review.caps)],
+        "untouched": review.untouched,
+        "left_out": review.left_out,
+    }
+
+
+def worst_caps(caps: Sequence[ReviewedCap], *, most: int = MOST_WORST) -> list[ReviewedCap]:
+    """The measured caps of all images whose CDR exceeds their floor by most, the worst first."""
+    measured = [cap for cap in caps if cap.measured.error]
+    return sorted(measured, key=_excess, reverse=True)[:most]
+
+
+def _excess(cap: ReviewedCap) -> float:
+    assert cap.measured.error is not None, "measured caps alone are sorted"
+    return cap.measured.error.cdr - (cap.floor or 0.0)
+
+
+def _caps_of(seen: ReviewedImage, *, place: int) -> list[ReviewedCap]:
+    page = seen.page
+    found = compare(page.truths, page.predictions, width=page.width, height=page.height)
+    return [_reviewed(seen, measured) for measured in measured_caps(place, page, found)]
+
+
+def _reviewed(seen: ReviewedImage, measured: Measured) -> ReviewedCap:
+    if measured.truth is None:
+        return ReviewedCap(measured=measured, image=seen.image.id)
+    annotation, image = seen.annotations[measured.truth], seen.image
+    sd, diameter = _sd_of_mark(annotation), measured.row.diameter
+    return ReviewedCap(
+        measured=measured,
+        image=image.id,
+        annotator=seen.annotators[annotation.uid],
+        floor=None if sd is None else cdr_of_noise(sd, width=image.width, height=image.height),
+        is_unsure=sd is not None and diameter is not None and max(sd) > UNSURE * diameter,
+        is_doubtful=annotation.cap.doubtful,
+    )
+
+
+def _sd_of_mark(annotation: Annotation) -> tuple[float, float] | None:
+    """How sure the marked centre is; from the mark itself where it was not kept, as of most imports."""
+    mark = annotation.cap.mark
+    if mark is None or annotation.centre_sd is not None:
+        return annotation.centre_sd if mark is not None else None
+    return reconstruction_of_mark(mark).fit.centre_sd
+
+
+def _figures(caps: Sequence[ReviewedCap]) -> dict[str, Any]:
+    """Those of ``evaluate centres``, the floor of the marks, and how many caps are of each kind."""
+    return figures_of_caps([cap.measured for cap in caps if cap.measured.truth is not None]) | _counts(caps)
+
+
+def _counts(caps: Sequence[ReviewedCap]) -> dict[str, Any]:
+    floors = [cap.floor for cap in caps if cap.floor is not None and cap.measured.error]
+    outcomes = Counter(cap.measured.row.outcome for cap in caps)
+    return {
+        **{outcome: outcomes[outcome] for outcome in ("matched", "missed", "extra")},
+        "marked": sum(cap.measured.row.mark is not None for cap in caps),
+        "doubtful": sum(cap.is_doubtful for cap in caps),
+        "unsure_marks": sum(cap.is_unsure for cap in caps),
+        "floor": {"cdr_mean": float(np.mean(floors)) if floors else None, "count": len(floors)},
+    }
+
+
+def _image_figures(image: Image, caps: Sequence[ReviewedCap]) -> dict[str, Any]:
+    errors = [cap.measured.error for cap in caps if cap.measured.error]
+    own = {"file_name": image.file_name, "status": image.status, "light": image.light, "form": image.form}
+    return own | to_builtins(summarise(errors)) | _counts(caps)
+
+
+def _row(cap: ReviewedCap) -> dict[str, Any]:
+    row = structs.asdict(cap.measured.row)
+    return row | {"floor": cap.floor, "annotator": cap.annotator, "unsure_mark": cap.is_unsure}

@@ -1,0 +1,62 @@
+"""Images that somebody worked on, as evaluation reads them, straight from the store."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from sqlalchemy import Connection
+
+from fairyring.app.caps.records import prediction_record, truth_record
+from fairyring.model.evaluate.pages import Page
+from fairyring.storage.contents import load_annotations, load_editors, load_predictions
+from fairyring.storage.images import ImageFilter, get_image, list_ids
+from fairyring.storage.records import Annotation, Image, Prediction
+
+
+@dataclass(frozen=True, eq=False)
+class ReviewedImage:
+    """An image with its caps; those of ``page`` are in the same order."""
+
+    image: Image
+    annotations: list[Annotation]
+    predictions: list[Prediction]
+    """Of the latest run that saw the image."""
+    page: Page
+    annotators: dict[str, str]
+    """Who edited each annotation last, by uid."""
+
+
+def worked_on(connection: Connection) -> tuple[list[int], list[str]]:
+    """The numbers of the images that somebody worked on, by name, and the file names of all others.
+
+    Somebody worked on an image that has a cap, or of which somebody said that it is done. On any other one
+    every prediction would count as extra, though nobody has looked.
+    """
+    with_caps = set(list_ids(connection, ImageFilter(annotated=True)))
+    numbers, others = [], []
+    for number in list_ids(connection, ImageFilter()):
+        image = get_image(connection, number)
+        if number in with_caps or image.status != "new":
+            numbers.append(number)
+        else:
+            others.append(image.file_name)
+    return numbers, others
+
+
+def reviewed_images(connection: Connection, numbers: list[int]) -> Iterator[ReviewedImage]:
+    """The images of these numbers, one after the other."""
+    for number in numbers:
+        image = get_image(connection, number)
+        annotations = load_annotations(connection, number)
+        predictions = load_predictions(connection, number)
+        page = Page(
+            file_name=image.file_name,
+            width=image.width,
+            height=image.height,
+            truths=[truth_record(each, image) for each in annotations],
+            predictions=[prediction_record(each, image) for each in predictions],
+            light=image.light,
+            form=image.form,
+        )
+        yield ReviewedImage(image, annotations, predictions, page, load_editors(connection, number))
