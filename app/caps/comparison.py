@@ -10,12 +10,13 @@ import logging
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import compress
+from statistics import fmean
 from typing import TypeVar
 
 import anyio.to_thread
 
 from fairyring.app.caps.image_caps import ImageCaps
-from fairyring.app.caps.records import prediction_record, truth_record
+from fairyring.app.caps.records import floor_of_mark, prediction_record, truth_record
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.evaluate import centres
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
@@ -142,6 +143,8 @@ def _compared(
         ((pair.error.cdr, annotations[pair.truth].uid) for pair in found.pairs if pair.error), default=None
     )
     dx, dy = summary.bias_px or (None, None)
+    floors = [floor_of_mark(annotations[pair.truth], image) for pair in found.pairs if pair.error]
+    known = [floor for floor in floors if floor is not None]
     return Comparison(
         image=image.id,
         run=run_id,
@@ -152,6 +155,7 @@ def _compared(
         missed=len(found.missed),
         extra=len(found.extra),
         cdr_mean=summary.cdr.mean,
+        floor_mean=fmean(known) if known else None,
         cdr_worst=worst[0] if worst else None,
         worst=worst[1] if worst else None,
         px_mean=summary.px.mean,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.evaluate.caps import CapRecord
+from fairyring.model.evaluate.human_floor import cdr_of_noise
 from fairyring.model.geometry.raster import area_of_rle, rle_of_outline
 from fairyring.model.geometry.shapes import area_of_outline, diameter_of_shape, polygon_of_shape
 from fairyring.storage.open_predictions import covered_by
@@ -24,6 +26,23 @@ def truth_record(annotation: Annotation, image: Image) -> CapRecord:
         visible_share=_visible_share(area, whole),
         mark=type(cap.mark).__name__.lower() if cap.mark is not None else None,
     )
+
+
+def sd_of_mark(annotation: Annotation) -> tuple[float, float] | None:
+    """One standard deviation of the marked centre along x and y, pixels; None where none is marked or known.
+
+    Worked out from the mark where it was not kept, as of most imports.
+    """
+    mark = annotation.cap.mark
+    if mark is None or annotation.centre_sd is not None:
+        return annotation.centre_sd if mark is not None else None
+    return reconstruction_of_mark(mark).fit.centre_sd
+
+
+def floor_of_mark(annotation: Annotation, image: Image) -> float | None:
+    """CDR, percent, that the mark of an annotation has by itself; None where that is not known."""
+    sd = sd_of_mark(annotation)
+    return None if sd is None else cdr_of_noise(sd, width=image.width, height=image.height)
 
 
 def prediction_record(prediction: Prediction, image: Image) -> CapRecord:

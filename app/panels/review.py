@@ -21,6 +21,10 @@ PAGE = 10
 MOST_IMAGES = 2000
 """Images that the figures and plots cover; with more, those first in the order asked for."""
 MOST_BARS = 60
+ABOUT_FLOOR = (
+    "The floor is the CDR that the marks have by themselves, as no hand places a point exactly: "
+    "predictions near it cannot be told to be wrong."
+)
 ORDERS: dict[str, tuple[ComparisonSort, bool]] = {
     "worst cap first": ("cdr_worst", True),
     "highest mean first": ("cdr_mean", True),
@@ -123,11 +127,12 @@ def _stale_note(stale: int) -> Markup | None:
 
 def _totals(rows: list[ComparisonRow]) -> Markup:
     figures = [row.comparison for row in rows]
-    weighted = [(f.cdr_mean, min(f.marked, f.matched)) for f in figures if f.cdr_mean is not None]
-    weight = sum(count for _, count in weighted)
-    mean = sum(cdr * count for cdr, count in weighted) / weight if weight else None
+    counted = [(f, min(f.marked, f.matched)) for f in figures]
+    mean = _weighted([(f.cdr_mean, count) for f, count in counted])
+    floor = _weighted([(f.floor_mean, count) for f, count in counted])
     totals = (
         ("mean CDR", "–" if mean is None else f"{mean:.3f} %"),
+        ("floor of marks", "–" if floor is None else f"{floor:.3f} %"),
         ("marked", sum(f.marked for f in figures)),
         ("matched", sum(f.matched for f in figures)),
         ("missed", sum(f.missed for f in figures)),
@@ -137,7 +142,15 @@ def _totals(rows: list[ComparisonRow]) -> Markup:
         "dl",
         *(element("div", element("dd", value), element("dt", name)) for name, value in totals),
         class_="fr-totals",
+        title=ABOUT_FLOOR,
     )
+
+
+def _weighted(figures: list[tuple[float | None, int]]) -> float | None:
+    """The mean of those figures that are known, each counted so many times."""
+    known = [(figure, count) for figure, count in figures if figure is not None]
+    weight = sum(count for _, count in known)
+    return sum(figure * count for figure, count in known) / weight if weight else None
 
 
 def _bars(rows: list[ComparisonRow], current: int | None) -> Markup | None:
@@ -160,7 +173,7 @@ def _bar(row: ComparisonRow, top: float, current: int | None) -> Markup:
         element("span", style=f"height: {100 * worst / top:.1f}%", class_="fr-bar-worst"),
         element("span", style=f"height: {100 * mean / top:.1f}%", class_="fr-bar-mean"),
         type="button",
-        title=f"{row.file_name}: mean {mean:.3f} %, worst {worst:.3f} %",
+        title=f"{row.file_name}: mean {mean:.3f} %{_floor(row)}, worst {worst:.3f} %",
         aria_label=f"Open {row.file_name} at its worst cap",
         aria_current="true" if figures.image == current else None,
         **_opens(row),
@@ -199,7 +212,8 @@ def _head() -> Markup:
 
 def _row(row: ComparisonRow, current: int | None) -> Markup:
     figures = row.comparison
-    stale = "edited since it was compared" if row.stale else None
+    told = f"CDR {_percent(figures.cdr_mean)} %{_floor(row)}"
+    told += "; edited since it was compared" if row.stale else ""
     numbers = (
         str(figures.caps),
         _percent(figures.cdr_mean),
@@ -213,12 +227,17 @@ def _row(row: ComparisonRow, current: int | None) -> Markup:
         element("td", name),
         *(element("td", number, class_="fr-number") for number in numbers),
         class_="fr-stale" if row.stale else None,
-        title=stale,
+        title=told,
         aria_current="true" if figures.image == current else None,
         tabindex=0,
         role="button",
         **_opens(row),
     )
+
+
+def _floor(row: ComparisonRow) -> str:
+    floor = row.comparison.floor_mean
+    return "" if floor is None else f" (the marks alone {floor:.3f} %)"
 
 
 def _opens(row: ComparisonRow) -> dict[str, str | float | bool | None]:

@@ -13,16 +13,15 @@ from typing import Any
 import numpy as np
 from msgspec import structs, to_builtins
 
+from fairyring.app.caps.records import floor_of_mark, sd_of_mark
 from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
-from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.evaluate.cap_rows import Measured, measured_caps
 from fairyring.model.evaluate.centre_figures import figures_of_caps, grouped
 from fairyring.model.evaluate.centres import compare, summarise
-from fairyring.model.evaluate.human_floor import cdr_of_noise
 from fairyring.model.evaluate.pages import Page
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Image
+from fairyring.storage.records import Image
 
 UNSURE = 0.05
 """A mark whose centre is off by more than this share of the cap's diameter is an unsure one."""
@@ -130,23 +129,15 @@ def _reviewed(seen: ReviewedImage, measured: Measured) -> ReviewedCap:
     if measured.truth is None:
         return ReviewedCap(measured=measured, image=seen.image.id)
     annotation, image = seen.annotations[measured.truth], seen.image
-    sd, diameter = _sd_of_mark(annotation), measured.row.diameter
+    sd, diameter = sd_of_mark(annotation), measured.row.diameter
     return ReviewedCap(
         measured=measured,
         image=image.id,
         annotator=seen.annotators[annotation.uid],
-        floor=None if sd is None else cdr_of_noise(sd, width=image.width, height=image.height),
+        floor=floor_of_mark(annotation, image),
         is_unsure=sd is not None and diameter is not None and max(sd) > UNSURE * diameter,
         is_doubtful=annotation.cap.doubtful,
     )
-
-
-def _sd_of_mark(annotation: Annotation) -> tuple[float, float] | None:
-    """How sure the marked centre is; from the mark itself where it was not kept, as of most imports."""
-    mark = annotation.cap.mark
-    if mark is None or annotation.centre_sd is not None:
-        return annotation.centre_sd if mark is not None else None
-    return reconstruction_of_mark(mark).fit.centre_sd
 
 
 def _figures(caps: Sequence[ReviewedCap]) -> dict[str, Any]:

@@ -199,6 +199,7 @@ comparison = Table(
     Column("missed", Integer, nullable=False),
     Column("extra", Integer, nullable=False),
     Column("cdr_mean", Real),
+    Column("floor_mean", Real),
     Column("cdr_worst", Real),
     Column("worst", Text),
     Column("px_mean", Real),

@@ -1,4 +1,4 @@
-"""How sure the centre of an annotation is, is kept with it."""
+"""How sure marked centres are is kept with annotations, and with what is compared with them."""
 
 from __future__ import annotations
 
@@ -17,3 +17,4 @@ def upgrade() -> None:
     """Adds the columns; caps that were fitted before have none until they are edited again."""
     op.add_column("annotation", sa.Column("sd_x", REAL))
     op.add_column("annotation", sa.Column("sd_y", REAL))
+    op.add_column("comparison", sa.Column("floor_mean", REAL))

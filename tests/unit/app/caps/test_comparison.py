@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from dataclasses import replace
 
 import pytest
@@ -31,6 +32,8 @@ def test_an_image_is_compared_as_equation_10_says(project: Project) -> None:
     assert figures.cdr_worst == pytest.approx(100 * (1.6 / 160 + 0.6 / 120))
     assert figures.cdr_mean == pytest.approx(figures.cdr_worst / 2)
     assert figures.worst == "left"
+    # Marked by circles of 20 px, whose centres are off by .04 of that.
+    assert figures.floor_mean == pytest.approx(100 * math.sqrt(2 / math.pi) * 0.8 * (1 / 160 + 1 / 120))
     assert figures.px_mean == pytest.approx((1.6**2 + 0.6**2) ** 0.5 / 2)
     assert figures.relative_mean == pytest.approx(figures.px_mean / 40)
     assert (figures.dx, figures.dy) == (pytest.approx(0.8), pytest.approx(-0.3))

@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec import structs
 
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
@@ -126,3 +127,13 @@ def test_hostile_strings_stay_text_in_every_panel() -> None:
 def test_a_simulated_run_is_called_that_plainly() -> None:
     simulated = Run(id=1, name="nicely named", kind="simulated", made_at="")
     assert read(status.run_badge(simulated).html).text == "simulated predictions"
+
+
+def test_no_cdr_is_shown_without_what_the_marks_are_off_by() -> None:
+    figures = structs.replace(FIGURES, floor_mean=0.05)
+    reviewed = review.Review(RUN, [ComparisonRow(file_name="bed", comparison=figures, stale=False)], 1, 0)
+    page = read(review.review_page(reviewed, 0, 1).html)
+    assert "floor of marks" in page.text
+    assert "0.050 %" in page.text
+    titles = [value for key, value in page.attributes if key == "title"]
+    assert any("CDR 0.10 % (the marks alone 0.050 %)" in title for title in titles)
