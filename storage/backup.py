@@ -144,7 +144,8 @@ def read_note(backup: Path) -> Backup:
     except msgspec.DecodeError as error:
         raise StoreError(f"{backup / NOTE_OF_BACKUP} is damaged ({error}); take another backup.") from error
     for name in note.files:
-        if not re.fullmatch(rf"({IMAGES}|{WEIGHTS})/[^/\0]+", name) or name.endswith("/.."):
+        first, *rest = name.split("/")
+        if first not in (IMAGES, WEIGHTS) or not rest or {"", ".", ".."} & {*rest} or "\0" in name:
             raise StoreError(f"{backup / NOTE_OF_BACKUP} names {name!r:.60}, where no backup keeps anything.")
     return note
 
@@ -161,7 +162,7 @@ def _copy_photos(
     for done, photo in enumerate(photos):
         progress(done, len(photos), "Copying photos")
         place = PurePosixPath(photo.path)
-        if place.parts[:-1] != (IMAGES,):
+        if place.parts[0] != IMAGES or ".." in place.parts:
             linked.append(photo.path)
             continue
         source = project.folder / photo.path
@@ -182,7 +183,7 @@ def _photos_in(database: Path) -> Iterator[_Photo]:
 
 def _copy(source: Path, target: Path) -> str:
     """Copies a file onto the disk; the SHA-256 of what is read back from there."""
-    target.parent.mkdir(exist_ok=True)
+    target.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(source, target)
     sync(target)
     with target.open("rb") as file:

@@ -169,7 +169,9 @@ def _copy_photos(
     for done, image in enumerate(images):
         progress(done, len(images), "Copying photos")
         try:
-            _copy(project.originals.path_of(image), folder / image.file_name)
+            target = folder / image.file_name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            _copy(project.originals.path_of(image), target)
         except PhotoChangedError as error:
             left_out.append(str(error))
         else:

@@ -54,3 +54,12 @@ class Originals:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
         self._digests[path] = stamp, digest
         return digest
+
+
+def digest_of_file(path: Path) -> str:
+    """SHA-256 of a file's bytes. Raises StoreError where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise StoreError(f"{path} cannot be read: {error.strerror}.") from error

@@ -1,13 +1,14 @@
-"""The command import, and what it says of an import."""
+"""The command import."""
 
 from __future__ import annotations
 
-import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fairyring.app.commands.import_report import print_report
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
@@ -15,6 +16,7 @@ from fairyring.model.light_and_form import FORMS, LightSource
 from fairyring.storage.choices import ImportAs, ImportFormat, KnownCaps, Polygons, Said
 
 if TYPE_CHECKING:
+    from fairyring.storage.importing.paths import UnsaidError
     from fairyring.storage.importing.storing import ImportReport
 
 
@@ -25,7 +27,10 @@ def import_(
     format_: Annotated[
         ImportFormat, typer.Option("--format", help="What the paths hold.")
     ] = ImportFormat.auto,
-    as_: Annotated[ImportAs, typer.Option("--as", help="What the shapes become.")] = ImportAs.annotations,
+    as_: Annotated[
+        ImportAs | None,
+        typer.Option("--as", help="What the shapes become: annotations; asked where all carry a score."),
+    ] = None,
     polygons: Annotated[
         Polygons,
         typer.Option(help="What labelme's polygons are: what is visible, or marks too, as in the paper."),
@@ -51,40 +56,55 @@ def import_(
     """Take in images and labels; report everything that is wrong, with file and reason.
 
     Caps that the project has already are recognised by their uid, their id or their outline, and never
-    doubled: what files say otherwise of them is told, unless an option says what to do with it.
+    doubled: what files say otherwise of them is told, unless an option says what to do with it. The exit code
+    is 1 where a file of labels has none that could be used.
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
     from fairyring.app.caps.filling_in import fill_in
     from fairyring.storage.importing.intake import Facts
-    from fairyring.storage.importing.paths import import_paths
+    from fairyring.storage.importing.paths import UnsaidError, import_paths
     from fairyring.storage.project import open_project
 
     if form is not None and form not in FORMS:
         raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
     known_caps = _known_caps(update=update, replace=replace, keep=keep)
-    with open_project(folder) as project, shown_on_stderr() as progress:
-        report = import_paths(
-            project,
-            paths,
-            kind=format_,
-            as_=as_,
-            polygons=polygons,
-            known_caps=known_caps,
-            strict=strict,
-            link=link,
-            unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
-            progress=progress,
-            user=by,
-        )
-        fill_in(project, progress=progress)
-    for problem in report.problems:
-        typer.echo(str(problem), err=True)
-    if report.polygons and as_ is ImportAs.annotations:
-        typer.echo(f"{report.polygons} polygons of labelme {_TAKEN_FOR[polygons]}", err=True)
-    if known_caps is KnownCaps.tell and (report.changed or report.gone):
-        typer.echo(_untaken(report), err=True)
-    _print_import(report, as_json=as_json)
+
+    def take(as_: ImportAs | None) -> ImportReport:
+        with open_project(folder) as project, shown_on_stderr() as progress:
+            report = import_paths(
+                project,
+                paths,
+                kind=format_,
+                as_=as_,
+                polygons=polygons,
+                known_caps=known_caps,
+                strict=strict,
+                link=link,
+                unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
+                progress=progress,
+                user=by,
+            )
+            fill_in(project, progress=progress)
+        return report
+
+    try:
+        report = take(as_)
+    except UnsaidError as error:
+        as_ = _asked(error)
+        report = take(as_)
+    print_report(report, as_=as_, polygons=polygons, known_caps=known_caps, as_json=as_json)
+    if report.useless:
+        raise typer.Exit(1)
+
+
+def _asked(error: UnsaidError) -> ImportAs:
+    """What a person at a terminal says; raises the error where nobody can be asked."""
+    if not (sys.stdin.isatty() and sys.stderr.isatty()):
+        raise error
+    typer.echo(str(error), err=True)
+    said = typer.confirm("Are they predictions?", err=True)
+    return ImportAs.predictions if said else ImportAs.annotations
 
 
 def _known_caps(*, update: bool, replace: bool, keep: bool) -> KnownCaps:
@@ -93,52 +113,3 @@ def _known_caps(*, update: bool, replace: bool, keep: bool) -> KnownCaps:
     if update or replace:
         return KnownCaps.replace if replace else KnownCaps.update
     return KnownCaps.keep if keep else KnownCaps.tell
-
-
-def _untaken(report: ImportReport) -> str:
-    """What an import left as it was, and how to have it otherwise."""
-    return (
-        f"Left as they are: {report.changed} caps of which the files say something else, "
-        f"{report.gone} which no file has. --update takes what is said as edits, --replace deletes the "
-        "others too, --keep leaves all as they are without a word."
-    )
-
-
-_TAKEN_FOR = {
-    Polygons.visible: "were taken for what is visible of caps (--polygons marks: for marks as well).",
-    Polygons.marks: "were taken for marks as well: centres are theirs (--polygons visible: worked out).",
-}
-
-
-def _print_import(report: ImportReport, *, as_json: bool) -> None:
-    figures = {
-        "images": report.images,
-        "images_known": report.images_known,
-        "annotations": report.annotations,
-        "predictions": report.predictions,
-        "known": report.known,
-        "changed": report.changed,
-        "same": report.known - report.changed,
-        "gone": report.gone,
-        "edits": report.edits,
-        "problems": len(report.problems),
-    }
-    if as_json:
-        listed = [
-            {"file": problem.file, "where": problem.where, "reason": problem.reason}
-            for problem in report.problems
-        ]
-        typer.echo(json.dumps(figures | {"listed": listed}))
-        return
-    typer.echo(
-        f"{report.images} new images, {report.annotations} annotations, {report.predictions} predictions; "
-        f"already there: {report.images_known} images, {report.known} shapes"
-        f"{_said_of_known(report)}; {len(report.problems)} problems"
-    )
-
-
-def _said_of_known(report: ImportReport) -> str:
-    if not report.known and not report.gone:
-        return ""
-    edits = f"; edits: {report.edits}" if report.edits else ""
-    return f" ({report.known - report.changed} the same, {report.changed} changed; {report.gone} gone{edits})"

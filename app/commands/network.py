@@ -6,7 +6,7 @@ import json
 import os
 from enum import StrEnum
 from fnmatch import fnmatchcase
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -199,7 +199,11 @@ def _images_called(project: Project, pattern: str) -> list[int]:
 
     with project.read() as connection:
         images = [get_image(connection, number) for number in list_ids(connection, ImageFilter())]
-    found = [image.id for image in images if fnmatchcase(image.file_name, pattern)]
+    found = [
+        image.id
+        for image in images
+        if fnmatchcase(image.file_name, pattern) or fnmatchcase(PurePosixPath(image.file_name).name, pattern)
+    ]
     if not images:
         raise FairyringError(f"{project.folder} holds no images; take some in with fairyring import.")
     if not found:

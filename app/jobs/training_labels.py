@@ -130,7 +130,7 @@ def labels_of_coco(
 
 def _of_file(path: Path, *, lenient: bool, progress: Progress) -> Labels:
     sources = gather([path], kind=ImportFormat.coco)
-    intake = take_in(sources, known={}, progress=progress)
+    intake = take_in(sources, known=(), progress=progress)
     if intake.problems and not (lenient and intake.seen):
         others = len(intake.problems) - 1
         more = f" ({others} more; --lenient leaves such items out)" if others else " (or give --lenient)"

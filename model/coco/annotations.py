@@ -13,6 +13,7 @@ from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.geometry.shapes import (
     Centre,
     Circle,
+    Outline,
     Polygon,
     Shape,
     canonical_ellipse,
@@ -136,6 +137,19 @@ def box_of(entry: Entry) -> tuple[float, float, float, float] | None:
         return None
     x, y, width, height = numbers(entry["bbox"], "Its bbox", count=4)
     return x, y, width, height
+
+
+def outline_of_box(entry: Entry) -> Outline | None:
+    """The rectangle of an annotation that has a bbox and nothing closer; None where there is none either."""
+    box = box_of(entry)
+    if box is None or drawn_of(entry) is not None:
+        return None
+    return [rectangle(*box)]
+
+
+def rectangle(x: float, y: float, width: float, height: float) -> list[float]:
+    """The corners of a box, [x0, y0, …]."""
+    return [x, y, x + width, y, x + width, y + height, x, y + height]
 
 
 def order_of(entry: Entry) -> int | None:

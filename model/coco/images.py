@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
+from unicodedata import normalize
 
 from msgspec import Struct
 
@@ -37,18 +38,17 @@ def read_images(document: Document, *, report: Report) -> dict[Id, ImageEntry]:
     return images
 
 
-def by_base_name(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, ImageEntry]:
-    """The images by base file name; of several of one name the first. ``report`` hears of all others."""
-    named: dict[str, ImageEntry] = {}
+def by_path(images: dict[Id, ImageEntry], *, report: Report) -> dict[str, ImageEntry]:
+    """The images by the path the file writes; of several of one the first. ``report`` hears of the others."""
+    written: dict[str, ImageEntry] = {}
     for image in images.values():
         with Reported(image.where, report):
             name = base_name(image.keys.get("file_name"))
-            if name in named:
-                raise ValueRefusedError(
-                    f"Another image of this file is called {name} too, in another folder; rename one."
-                )
-            named[name] = image
-    return named
+            path = normalize("NFC", image.keys["file_name"].replace("\\", "/")).removeprefix("./")
+            if path in written:
+                raise ValueRefusedError(f"Another image of this file is called {name} too; rename one.")
+            written[path] = image
+    return written
 
 
 def size_of(image: ImageEntry) -> tuple[int, int]:

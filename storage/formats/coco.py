@@ -7,6 +7,7 @@ by an export.
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import PurePosixPath
 from typing import Any
 
 from msgspec import structs
@@ -20,22 +21,29 @@ from fairyring.model.coco.annotations import (
     is_marked,
     mark_of,
     order_of,
+    outline_of_box,
     own_id,
     score_of,
     segmentation_of,
     shape_of,
 )
 from fairyring.model.coco.categories import category_of, listed_categories, name_of_category
-from fairyring.model.coco.document import Document, objects_of, parse_document
+from fairyring.model.coco.document import (
+    Document,
+    FormatError,
+    annotations_by_image,
+    objects_of,
+    parse_document,
+)
 from fairyring.model.coco.faults import Fault, Reported
 from fairyring.model.coco.ids import Id, id_of
-from fairyring.model.coco.images import ImageEntry, by_base_name, read_images
+from fairyring.model.coco.images import ImageEntry, by_path, read_images
 from fairyring.model.geometry.shapes import Mark, Polygon
 from fairyring.model.json_values import ValueRefusedError, flag, kept, shown, text
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.cap_validity import MAX_ORDER
-from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundCategory, FoundImage, Problem
+from fairyring.storage.formats.fractions import require_pixels
 from fairyring.storage.records import STATUSES, Cap, Status
 
 IMAGE_KEYS = {
@@ -60,32 +68,48 @@ def parse_coco(data: bytes, *, file: str) -> Found:
         FairyringError: it is not a COCO file at all; the sentence does not name it.
     """
     document = parse_document(data)
-    if document.images is None:
-        raise StoreError("This is a list of results without images; give a COCO file with images.")
     faults: list[Fault] = []
     categories = listed_categories(document)
-    images = _images(document, faults)
+    images = _images(document, faults) if document.images is not None else _images_of_results(document)
     caps = _caps(document, images, categories, faults)
+    require_pixels(cap for of_image in caps.values() for cap in of_image)
     return Found(
         file=file,
         images=[structs.replace(image, caps=caps.get(own, [])) for own, image in images.items()],
         problems=[Problem(file, fault.where, fault.reason) for fault in faults],
         categories=_categories(categories, faults),
+        labels=len(document.annotations),
+        all_scored=_all_scored(caps),
     )
+
+
+def _all_scored(caps: dict[Id, list[FoundCap]]) -> bool:
+    return any(caps.values()) and all(cap.score is not None for of_image in caps.values() for cap in of_image)
 
 
 def _images(document: Document, faults: list[Fault]) -> dict[Id, FoundImage]:
     """The images by id, in the order of the file."""
     licenses = _licenses(document)
     images: dict[Id, FoundImage] = {}
-    named = by_base_name(read_images(document, report=faults.append), report=faults.append)
-    for name, entry in named.items():
+    written = by_path(read_images(document, report=faults.append), report=faults.append)
+    names = Counter(PurePosixPath(path).name for path in written)
+    for path, entry in written.items():
         with Reported(entry.where, faults.append):
-            images[entry.id] = _image(name, entry, licenses, faults)
+            image = _image(path, entry, licenses, faults)
+            several = names[PurePosixPath(path).name] > 1
+            images[entry.id] = structs.replace(image, one_of_several=several)
     return images
 
 
-def _image(name: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults: list[Fault]) -> FoundImage:
+def _images_of_results(document: Document) -> dict[Id, FoundImage]:
+    """The images that a list of results speaks of: it only calls them by a number or a name."""
+    called = [own for own in annotations_by_image(document) if own is not None]
+    if not called:
+        raise FormatError("This is a list without results: nothing in it names its image by image_id.")
+    return {own: FoundImage(where=f"image {shown(own)}", file_name="", called=own) for own in called}
+
+
+def _image(path: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults: list[Fault]) -> FoundImage:
     keys = entry.keys
     extra = _others(keys, IMAGE_KEYS)
     if "license" in keys:
@@ -96,7 +120,7 @@ def _image(name: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults:
             faults.append(Fault(entry.where, f"The {key} is none of {', '.join(allowed)}; it was left out."))
     return FoundImage(
         where=entry.where,
-        file_name=name,
+        file_name=path,
         id=entry.id if isinstance(entry.id, int) else None,
         width=entry.width,
         height=entry.height,
@@ -157,16 +181,17 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
     mark: Mark | None = (mark_of(entry) or shape) if marked else None
     if entry.get("segmentation_of") == "mark" and mark is not None:
         segmentation = None
+    box = None if segmentation is not None or mark is not None else outline_of_box(entry)
     extra = _others(entry, OWN_ANNOTATION_KEYS if "marked" in entry else ANNOTATION_KEYS)
     if isinstance(mark, Polygon) and shape is None:
         extra.pop("amodal_segmentation", None)
     return FoundCap(
         where=where,
         cap=Cap(
-            visible=segmentation if isinstance(segmentation, list) else [],
+            visible=segmentation if isinstance(segmentation, list) else box or [],
             mark=mark,
             ignored=is_ignored(entry),
-            doubtful=is_doubtful(entry),
+            doubtful=is_doubtful(entry) or box is not None,
             order=_order(entry, where, faults),
             category=category,
         ),
@@ -178,6 +203,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
         uid=entry["uid"] if isinstance(entry.get("uid"), str) else None,
         id=own if isinstance(own := own_id(entry), int) else None,
         is_mask=isinstance(segmentation, dict),
+        is_box=box is not None,
         rle=segmentation if isinstance(segmentation, dict) else None,
         extra=_kept(extra, where, faults),
     )

@@ -38,6 +38,8 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     file: str = ""
     is_mask: bool = False
     """Whether its outline was traced from a mask."""
+    is_box: bool = False
+    """Whether it is only a box, whose rim is to be corrected."""
     rle: dict[str, Any] | None = None
     """An RLE in place of the visible outline; it is decoded once the photo's size is known."""
     extra: dict[str, Any] = field(default_factory=dict)
@@ -57,9 +59,11 @@ class FoundImage(Struct, frozen=True, kw_only=True):
 
     where: str
     file_name: str
-    """File name as written; only its base name counts."""
+    """File name as written, perhaps with folders before it; empty in a list of results."""
     id: int | None = None
     """Its number in the file."""
+    called: int | str | None = None
+    """What a list of results calls it by: the number of an image, or a photo's name without its ending."""
     width: int | None = None
     height: int | None = None
     light: str | None = None
@@ -67,6 +71,10 @@ class FoundImage(Struct, frozen=True, kw_only=True):
     split: str | None = None
     status: Status | None = None
     """None where the file does not say."""
+    one_of_several: bool = False
+    """Whether another image of the file has this base name, so that the folders before it decide."""
+    has_photo: bool = False
+    """Whether the photo itself lies in the file."""
     extra: dict[str, Any] = field(default_factory=dict)
     caps: list[FoundCap] = field(default_factory=list)
 
@@ -81,3 +89,12 @@ class Found(Struct, frozen=True, kw_only=True):
     """By name, in the order of the file."""
     polygons: int = 0
     """How many polygons of labelme there are, which may be marks as well."""
+    labels: int = 0
+    """How many labels the file holds, whether or not they can be used."""
+    all_scored: bool = False
+    """Whether each of them carries a score, as what a machine said does."""
+
+    @property
+    def is_results(self) -> bool:
+        """Whether it is a list of results, which lists no images."""
+        return any(image.called is not None for image in self.images)

@@ -1,8 +1,9 @@
-"""Reads labelme's JSON: one file an image, polygons and circles.
+"""Reads labelme's JSON: one file an image, shapes of several types.
 
-A polygon is the visible outline of a cap or, where that is asked for, its mark too. A circle is exactly two
-points, the centre and one on the rim: a mark without a visible outline. Shapes of one ``group_id`` and label
-are one cap: polygons are its parts, a circle its mark.
+A polygon is the visible outline of a cap or, where that is asked for, its mark too; a mask is a visible
+outline. A rectangle is a box whose rim is to be corrected. A circle is exactly two points, the centre and one
+on the rim: a mark without a visible outline. Shapes of one ``group_id`` and label are one cap: polygons are
+its parts, a circle its mark.
 """
 
 from __future__ import annotations
@@ -11,16 +12,25 @@ import math
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from fairyring.model.geometry.shapes import Circle, Polygon
+import numpy as np
+
+from fairyring.model.coco.annotations import rectangle
+from fairyring.model.geometry.shapes import Circle, Outline, Polygon
 from fairyring.model.json_files import parse_json
 from fairyring.model.json_values import ValueRefusedError, kept, number, numbers, size
 from fairyring.storage.cap_validity import MAX_NAME
 from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import Found, FoundCap, FoundImage, Problem
+from fairyring.storage.formats.fractions import require_pixels
+from fairyring.storage.formats.labelme_masks import outline_of_png
 from fairyring.storage.records import Cap, Mark
 
-SHAPE_KEYS = {"label", "points", "group_id", "shape_type"}
+SHAPE_KEYS = {"label", "points", "group_id", "shape_type", "mask"}
+OUTLINES = ("polygon", "ellipse")
+"""Types whose points are the vertices of a rim, where there are three and more."""
+BOXES = ("rectangle", "rotation", "oriented_rectangle")
+"""Types whose points are the corners of a box: two across, or all four."""
 IMAGE_KEYS = {"version", "shapes", "imagePath", "imageData", "imageHeight", "imageWidth"}
 
 
@@ -45,6 +55,7 @@ def parse_labelme(data: bytes, *, file: str, polygons: Polygons = Polygons.visib
             file_name=document["imagePath"],
             width=size(document.get("imageWidth"), "imageWidth"),
             height=size(document.get("imageHeight"), "imageHeight"),
+            has_photo=isinstance(document.get("imageData"), str),
             extra=kept(
                 {key: value for key, value in document.items() if key not in IMAGE_KEYS},
                 left_out=lambda reason: problems.append(Problem(file, "image", reason)),
@@ -53,8 +64,14 @@ def parse_labelme(data: bytes, *, file: str, polygons: Polygons = Polygons.visib
         )
     except ValueRefusedError as error:
         raise StoreError(f"{error} Put it right, or export the file anew.") from error
-    drawn = sum(isinstance(shape.geometry, Polygon) for shape in shapes)
-    return Found(file=file, images=[image], problems=problems, polygons=drawn)
+    require_pixels(image.caps)
+    return Found(
+        file=file,
+        images=[image],
+        problems=problems,
+        polygons=sum(shape.is_polygon for shape in shapes),
+        labels=len(document["shapes"]),
+    )
 
 
 class _Shape:
@@ -69,26 +86,42 @@ class _Shape:
         self.where = where
         self.label = label
         self.group = group if type(group) in (int, str) else None
-        self.geometry = _geometry(entry)
+        kind = entry.get("shape_type") or "polygon"
+        self.is_polygon = kind in OUTLINES
+        self.is_box = kind in BOXES
+        self.circle = _circle(entry) if kind == "circle" else None
+        self.outline = _outline(entry, kind)
         others = {key: value for key, value in entry.items() if key not in SHAPE_KEYS and value}
         self.extra = kept(others, left_out=left_out)
 
 
-def _geometry(entry: dict[str, Any]) -> Circle | Polygon:
-    points = [numbers(point, "A point", count=2) for point in entry["points"]]
-    kind = entry.get("shape_type", "polygon")
-    if kind == "polygon":
-        return Polygon([coordinate for point in points for coordinate in point])
-    if kind != "circle":
-        raise ValueRefusedError(
-            f"Shapes of type {kind!r:.40} are not known here; draw a polygon or a circle."
-        )
+def _outline(entry: dict[str, Any], kind: Any) -> Outline:
+    """The parts of a shape's outline; none of a circle."""
+    points = _points(entry)
+    if kind == "circle":
+        return []
+    if kind == "mask":
+        return outline_of_png(entry.get("mask"), corner=points[0] if points else (0, 0))
+    if kind in BOXES and len(points) == 2:
+        (left, top), (right, bottom) = np.sort(np.array(points), axis=0).tolist()
+        return [rectangle(left, top, right - left, bottom - top)]
+    if kind in (*OUTLINES, *BOXES):
+        return [[coordinate for point in points for coordinate in point]]
+    raise ValueRefusedError(f"Shapes of type {kind!r:.40} are not known here; draw a polygon or a circle.")
+
+
+def _circle(entry: dict[str, Any]) -> Circle:
+    points = _points(entry)
     if len(points) != 2:
         raise ValueRefusedError(
             f"A circle is two points, its centre and one on its rim; this has {len(points)}."
         )
     (cx, cy), (x, y) = points
     return Circle(cx, cy, number(math.hypot(x - cx, y - cy), "The radius"))
+
+
+def _points(entry: dict[str, Any]) -> list[list[float]]:
+    return [numbers(point, "A point", count=2) for point in entry["points"]]
 
 
 def _shapes(entries: list[Any], problems: list[Problem], *, file: str) -> Iterable[_Shape]:
@@ -114,21 +147,25 @@ def _grouped(shapes: Iterable[_Shape]) -> list[list[_Shape]]:
 
 def _as_caps(group: list[_Shape]) -> list[list[_Shape]]:
     """Divides a group with two circles or more into single shapes: some people group what grows together."""
-    circles = sum(isinstance(shape.geometry, Circle) for shape in group)
+    circles = sum(shape.circle is not None for shape in group)
     return [group] if circles < 2 else [[shape] for shape in group]
 
 
 def _cap(group: list[_Shape], polygons: Polygons) -> FoundCap:
-    parts = [shape.geometry for shape in group if isinstance(shape.geometry, Polygon)]
-    marks: list[Mark] = [shape.geometry for shape in group if isinstance(shape.geometry, Circle)]
-    if polygons is Polygons.marks and len(parts) == 1:
-        marks += parts
+    parts = [part for shape in group for part in shape.outline]
+    marks: list[Mark] = [shape.circle for shape in group if shape.circle is not None]
+    if polygons is Polygons.marks and len(parts) == 1 and group[0].is_polygon:
+        marks += [Polygon(parts[0])]
+    is_box = any(shape.is_box for shape in group)
     return FoundCap(
         where=group[0].where,
         cap=Cap(
-            visible=[part.points for part in parts],
+            visible=parts,
             mark=marks[0] if marks else None,
+            doubtful=is_box,
             category=group[0].label,
         ),
+        is_box=is_box,
+        is_mask=any(not shape.is_polygon and not shape.is_box for shape in group if shape.outline),
         extra=group[0].extra,
     )

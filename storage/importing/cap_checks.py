@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from hashlib import blake2b
+from pathlib import PurePosixPath
 
 import msgspec
 from msgspec import structs
@@ -90,7 +91,8 @@ def _remarks_on_centre(found: FoundCap, centre: tuple[float, float]) -> list[str
 
 def content_number(cap: Cap, *, photo: Photo) -> str:
     """A uid from a cap's content: the same outline and mark in the same photo always get the same one."""
-    content = msgspec.json.encode((photo.file_name, photo.sha256, cap.visible, cap.mark))
+    name = PurePosixPath(photo.file_name).name
+    content = msgspec.json.encode((name, photo.sha256, cap.visible, cap.mark))
     return blake2b(content, digest_size=16).hexdigest()
 
 

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from msgspec import Struct, field, structs
 
-from fairyring.model.coco.photo_names import PhotoNames, meant
+from fairyring.model.coco.ids import Id
+from fairyring.model.coco.photo_names import meant
 from fairyring.model.errors import FairyringError
 from fairyring.model.json_values import base_name
+from fairyring.model.photo import PhotoError
 from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
+from fairyring.storage.importing.around import Around
 from fairyring.storage.importing.cap_checks import check_caps
-from fairyring.storage.importing.photos import Beside, Photo, examine
+from fairyring.storage.importing.photo_index import PhotoIndex, has_size, other_size
+from fairyring.storage.importing.photos import Photo, examine, folders_of, named_apart
 from fairyring.storage.importing.sources import Document, Sources
+from fairyring.storage.importing.within_labels import unpacked_photo
+from fairyring.storage.originals import digest_of_file
 from fairyring.storage.records import Status
 
 
@@ -35,26 +42,14 @@ class Intake(Struct, kw_only=True):
     """What an import has read and checked: what can be stored, and the problems."""
 
     photos: dict[str, Photo]
-    """Photos of the project and new ones, by base name."""
-    seen: set[str] = field(default_factory=set)
-    """Base names of the photos that this import is about."""
-    caps: dict[str, list[FoundCap]] = field(default_factory=dict)
+    """Photos of the project and new ones, by name."""
+    seen: set[str]
+    """Names of the photos that this import is about."""
+    caps: dict[str, list[FoundCap]]
     """Caps checked against their photo, by its name."""
-    problems: list[Problem] = field(default_factory=list)
-    names: PhotoNames = field(default_factory=PhotoNames)
-    """Of the photos."""
-    _beside: dict[Path, Beside] = field(default_factory=dict)
-    """By the folder of the label file."""
-
-    def __post_init__(self) -> None:
-        for name in self.photos:
-            self.names.add(name)
-
-    def beside_of(self, document: Path) -> Beside:
-        """What lies beside a label file; its folder is listed once."""
-        if document.parent not in self._beside:
-            self._beside[document.parent] = Beside(document)
-        return self._beside[document.parent]
+    problems: list[Problem]
+    useless: list[str] = field(default_factory=list)
+    """Files of labels of which no label can be used."""
 
     @property
     def new_photos(self) -> list[Photo]:
@@ -63,27 +58,42 @@ class Intake(Struct, kw_only=True):
 
 
 def take_in(
-    sources: Sources, *, known: dict[str, Photo], unsaid: Facts = NOTHING_SAID, progress: Progress
+    sources: Sources,
+    *,
+    known: Iterable[Photo],
+    folder: Path = Path(),
+    scratch: Path | None = None,
+    unsaid: Facts = NOTHING_SAID,
+    progress: Progress,
 ) -> Intake:
     """Checks every photo, and every cap against its photo.
 
     Args:
         sources: what was gathered.
         known: the photos of the project.
+        folder: the project's.
+        scratch: a folder for photos that lie within files of labels; None leaves them there.
         unsaid: what holds of photos where their file does not say otherwise.
         progress: called once a photo.
     """
-    intake = Intake(photos=dict(known), problems=list(sources.problems))
+    taking = _Taking(
+        index=PhotoIndex(known, folder=folder),
+        problems=list(sources.problems),
+        named=sources.named,
+        scratch=scratch,
+        unsaid=unsaid,
+    )
     tasks: list[tuple[str, str, Callable[[], None]]] = [
-        (str(path), "", lambda path=path: _take_photo(intake, path, unsaid)) for path in sources.photos
+        (str(path), "", lambda path=path: _take_photo(taking, path)) for path in sources.photos
     ]
-    for document in sources.documents:
-        intake.problems.extend(document.found.problems)
+    # Lists of results come last: they call images by the numbers that other files give them.
+    for document in sorted(sources.documents, key=lambda document: document.found.is_results):
+        taking.problems.extend(document.found.problems)
         tasks += [
             (
                 str(document.path),
                 image.where,
-                lambda document=document, image=image: _take_labels(intake, document, image, unsaid),
+                lambda document=document, image=image: _take_labels(taking, document, image),
             )
             for image in document.found.images
         ]
@@ -92,30 +102,67 @@ def take_in(
         try:
             take()
         except FairyringError as error:
-            intake.problems.append(Problem(file, where, str(error).removeprefix(f"{file}: ")))
-    return intake
+            taking.problems.append(Problem(file, where, str(error).removeprefix(f"{file}: ")))
+    return _taken(taking, sources)
 
 
-def _take_photo(intake: Intake, path: Path, unsaid: Facts) -> None:
-    _add(intake, structs.replace(examine(path), light=unsaid.light, form=unsaid.form))
+class _Taking(Struct, kw_only=True):
+    """An intake on its way: photos by their number in the index."""
+
+    index: PhotoIndex
+    problems: list[Problem]
+    named: list[Path]
+    scratch: Path | None
+    unsaid: Facts
+    seen: set[int] = field(default_factory=set)
+    caps: dict[int, list[FoundCap]] = field(default_factory=dict)
+    usable: Counter[str] = field(default_factory=Counter)
+    """How many caps of each file."""
+    meant: dict[tuple[Path, int], str] = field(default_factory=dict)
+    """Which image of a file a photo is."""
+    numbered: dict[int, set[int]] = field(default_factory=dict)
+    """The photos by the numbers that the files give them, for lists of results."""
+    around: dict[Path, Around] = field(default_factory=dict)
+    """By file of labels."""
 
 
-def _add(intake: Intake, photo: Photo) -> Photo:
-    other = intake.photos.get(photo.file_name)
-    if other is not None and other.sha256 != photo.sha256:
-        raise StoreError(f"Another image is called {photo.file_name} already; rename one of them.")
-    intake.seen.add(photo.file_name)
-    intake.names.add(photo.file_name)
-    return intake.photos.setdefault(photo.file_name, photo)
+def _taken(taking: _Taking, sources: Sources) -> Intake:
+    photos = named_apart(taking.index.photos)
+    without_labels = [
+        str(document.path)
+        for document in sources.documents
+        if document.found.labels and not taking.usable[str(document.path)]
+    ]
+    return Intake(
+        photos={photo.file_name: photo for photo in photos},
+        seen={photos[nth].file_name for nth in taking.seen},
+        caps={photos[nth].file_name: caps for nth, caps in taking.caps.items()},
+        problems=taking.problems,
+        useless=[*sources.unreadable, *without_labels],
+    )
 
 
-def _take_labels(intake: Intake, document: Document, image: FoundImage, unsaid: Facts) -> None:
-    photo = _photo_of(intake, document.path, image)
-    intake.photos[photo.file_name] = _told_more(photo, image, unsaid)
-    intake.seen.add(photo.file_name)
-    caps, problems = check_caps(image.caps, photo=photo, file=str(document.path))
-    intake.caps.setdefault(photo.file_name, []).extend(caps)
-    intake.problems.extend(problems)
+def _take_photo(taking: _Taking, path: Path) -> None:
+    photo = structs.replace(examine(path), light=taking.unsaid.light, form=taking.unsaid.form)
+    taking.seen.add(taking.index.add(photo))
+
+
+def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None:
+    nth = _photo_of(taking, document.path, image)
+    own = taking.meant.setdefault((document.path, nth), image.where)
+    if own != image.where:
+        raise StoreError(
+            f"Its photo is taken for that of {own} already; put each into the folder it is called by."
+        )
+    if image.called is None and image.id is not None:
+        taking.numbered.setdefault(image.id, set()).add(nth)
+    photos = taking.index.photos
+    photos[nth] = _told_more(photos[nth], image, taking.unsaid)
+    taking.seen.add(nth)
+    caps, problems = check_caps(image.caps, photo=photos[nth], file=str(document.path))
+    taking.caps.setdefault(nth, []).extend(caps)
+    taking.usable[str(document.path)] += len(caps)
+    taking.problems.extend(problems)
 
 
 def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
@@ -142,32 +189,72 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
     )
 
 
-def _photo_of(intake: Intake, document: Path, image: FoundImage) -> Photo:
-    """The photo of an image: in the project by base name and size, beside the file, or in ``images/``."""
-    name = base_name(image.file_name)
-    near = intake.beside_of(document)
-    found_name = meant(name, intake.names, near.names) or name
-    photo = intake.photos.get(found_name)
-    if photo is not None and _has_size(photo, image):
-        return photo
-    beside = near.path_of(found_name)
-    if beside is not None:
-        found = examine(beside)
-        if _has_size(found, image):
-            return _add(intake, found)
-    if beside is None and photo is None:
-        other = intake.names.suggest(name) or near.names.suggest(name)
-        question = f"; if {other} is meant, call it that in this file" if other else ""
-        raise StoreError(
-            f"{name} is neither in the project nor beside this file nor in images/ beside it{question}."
-        )
-    actual = photo or examine(beside) if beside else photo
-    assert actual is not None, "one of the two was found"
+def _photo_of(taking: _Taking, document: Path, image: FoundImage) -> int:
+    """The number of the photo that an image of a file is.
+
+    A photo lying around the file decides, where there is one: it is one that is known, or a new one. Else it
+    is the one of that name and size, among several the one from the folders that the file names.
+    """
+    if image.called is not None:
+        return _photo_of_results(taking, image.called)
+    index, name = taking.index, base_name(image.file_name)
+    if document not in taking.around:
+        taking.around[document] = Around(document, taking.named)
+    near = taking.around[document]
+    called = meant(name, index.names, near.names) or name
+    path = near.find(image.file_name, called=called)
+    if path is not None and (nth := _lying_around(index, path, image)) is not None:
+        _require_folder(image, path.absolute().parts[1:-1])
+        return nth
+    nth = index.meant_by(image, called)
+    if nth is not None:
+        _require_folder(image, folders_of(index.photos[nth]))
+        return nth
+    if image.has_photo and taking.scratch is not None:
+        return index.add(unpacked_photo(document, name, scratch=taking.scratch))
+    other = index.names.suggest(name) or near.names.suggest(name)
+    question = f"; if {other} is meant, call it that in this file" if other else ""
     raise StoreError(
-        f"{name} is {actual.width} × {actual.height} pixels when upright, "
-        f"but this file says {image.width} × {image.height}."
+        f"{name} is neither in the project nor beside this file nor in images/ beside it{question}."
     )
 
 
-def _has_size(photo: Photo, image: FoundImage) -> bool:
-    return image.width in (None, photo.width) and image.height in (None, photo.height)
+def _require_folder(image: FoundImage, folders: Sequence[str]) -> None:
+    """Raises StoreError where a file has a base name in several folders, and the photo is not from its."""
+    written = image.file_name.split("/")[:-1]
+    if image.one_of_several and written and (not folders or folders[-1] != written[-1]):
+        raise StoreError(
+            f"Several images of this file are called {base_name(image.file_name)}, and the photo that was "
+            f"found is not from a folder {written[-1]}; put each photo into its folder."
+        )
+
+
+def _photo_of_results(taking: _Taking, called: Id) -> int:
+    """The photo that a list of results calls by a number of another file or the project, or by its name."""
+    listed = taking.numbered.get(called, set()) if isinstance(called, int) else set()
+    nth = next(iter(listed)) if len(listed) == 1 else taking.index.numbered(called)
+    if nth is None:
+        raise StoreError(
+            "No image of the project has this number, and no photo this name; import the list of results "
+            "together with the COCO file that lists their images."
+        )
+    return nth
+
+
+def _lying_around(index: PhotoIndex, path: Path, image: FoundImage) -> int | None:
+    """The number of a photo beside a file of labels; None where another of its name is meant."""
+    name = base_name(path.name)
+    nth = index.with_content(name, digest_of_file(path)) if index.called(name) else None
+    if nth is not None and has_size(index.photos[nth], image):
+        return nth
+    try:
+        photo = examine(path)
+    except PhotoError:
+        if index.called(name):
+            return None
+        raise
+    if has_size(photo, image):
+        return index.add(photo)
+    if index.called(name):
+        return None
+    raise other_size(photo, image)

@@ -6,6 +6,7 @@ import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.cap_validity import check_name
@@ -16,7 +17,7 @@ from fairyring.storage.importing.comparing import Compared, compare
 from fairyring.storage.importing.entering import refused_as_prediction
 from fairyring.storage.importing.intake import NOTHING_SAID, Facts, Intake, take_in
 from fairyring.storage.importing.photos import photos_of_project
-from fairyring.storage.importing.sources import gather
+from fairyring.storage.importing.sources import Sources, gather
 from fairyring.storage.importing.staging import staging
 from fairyring.storage.importing.storing import ImportReport, Parcel, store
 from fairyring.storage.project import Project
@@ -27,7 +28,7 @@ def import_paths(
     paths: Sequence[Path],
     *,
     kind: ImportFormat = ImportFormat.auto,
-    as_: ImportAs = ImportAs.annotations,
+    as_: ImportAs | None = None,
     polygons: Polygons = Polygons.visible,
     known_caps: KnownCaps = KnownCaps.tell,
     strict: bool = False,
@@ -42,7 +43,7 @@ def import_paths(
         project: where to.
         paths: photos, COCO or labelme files, folders of them.
         kind: what the paths hold.
-        as_: what the shapes become.
+        as_: what the shapes become; None makes annotations of them, and asks where all carry a score.
         polygons: what the polygons of labelme files are.
         known_caps: what becomes of annotations that the project has already.
         strict: take nothing if there is any problem.
@@ -52,16 +53,25 @@ def import_paths(
         user: whom the journal names.
 
     Raises:
+        UnsaidError: the labels look like predictions, and nobody has said what they are.
         StoreError: nothing can be used, or ``strict`` and something is wrong. Nothing is changed.
     """
     check_name(user, "name of a user")
     project.require_writable()
-    with _no_garbage_collection():
+    with _no_garbage_collection(), TemporaryDirectory(prefix="fairyring-") as scratch:
         progress(0, 0, "Reading")
         sources = gather([Path(path) for path in paths], kind=kind, polygons=polygons)
+        as_ = as_ or _require_said(sources)
         with project.read() as connection:
             known = photos_of_project(connection)
-        intake = take_in(sources, known=known, unsaid=unsaid, progress=progress)
+        intake = take_in(
+            sources,
+            known=known.values(),
+            folder=project.folder,
+            scratch=Path(scratch),
+            unsaid=unsaid,
+            progress=progress,
+        )
         if as_ == ImportAs.predictions:
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
@@ -69,7 +79,7 @@ def import_paths(
         with staging(project) as copies:
             for done, photo in enumerate(intake.new_photos):
                 progress(done, len(intake.new_photos), "Copying photos")
-                if not link:
+                if not link or photo.within_labels:
                     copies.copy(photo)
             progress(0, 0, "Storing")
             parcel = Parcel(
@@ -93,6 +103,20 @@ def _no_garbage_collection() -> Iterator[None]:
     finally:
         if was_on:
             gc.enable()
+
+
+class UnsaidError(StoreError):
+    """Files whose labels all carry a score, as predictions do, and nobody has said what they are."""
+
+
+def _require_said(sources: Sources) -> ImportAs:
+    for document in sources.documents:
+        if document.found.all_scored:
+            raise UnsaidError(
+                f"{document.path}: all its {document.found.labels} annotations carry a score, as predictions "
+                "do. Say --as predictions, or --as annotations if people have checked them."
+            )
+    return ImportAs.annotations
 
 
 def _keep_predictions(intake: Intake) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from msgspec import Struct, field
 
+from fairyring.model.coco.document import FormatError
 from fairyring.model.errors import FairyringError
 from fairyring.model.json_files import unzipped
 from fairyring.model.photo import SUFFIXES
@@ -17,8 +18,16 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.found import Found, Problem
 from fairyring.storage.formats.labelme import parse_labelme
+from fairyring.storage.importing.other_kinds import (
+    ARCHIVE,
+    BY_SUFFIX,
+    MASKS,
+    OtherKind,
+    is_picture_of_masks,
+    other_kind_of,
+    other_kind_of_json,
+)
 
-ARCHIVE_SUFFIXES = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"}
 LABEL_SUFFIXES = (".json", ".json.gz")
 LITTER = {".DS_Store", "Thumbs.db", "desktop.ini"}
 """Files that desktops leave in every folder."""
@@ -38,6 +47,10 @@ class Sources(Struct, frozen=True, kw_only=True):
     photos: list[Path] = field(default_factory=list)
     documents: list[Document] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
+    named: list[Path] = field(default_factory=list)
+    """What a person named."""
+    unreadable: list[str] = field(default_factory=list)
+    """Files of labels that cannot be read, or are of a kind that is not."""
 
 
 def gather(paths: Sequence[Path], *, kind: ImportFormat, polygons: Polygons = Polygons.visible) -> Sources:
@@ -50,9 +63,9 @@ def gather(paths: Sequence[Path], *, kind: ImportFormat, polygons: Polygons = Po
     Raises:
         StoreError: a path does not exist, or is an archive.
     """
-    sources = Sources()
+    sources = Sources(named=list(paths))
     for path in paths:
-        if path.suffix.lower() in ARCHIVE_SUFFIXES and not _holds_labels(path):
+        if BY_SUFFIX.get(path.suffix.lower()) is ARCHIVE and not _holds_labels(path):
             raise StoreError(f"{path} is an archive; unpack it and import the folder.")
         if path.is_dir():
             for file in _files_below(path, sources.problems):
@@ -96,8 +109,12 @@ def _reason_to_pass_over(path: Path) -> str | None:
 def _take(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons, named: bool) -> None:
     is_document = _holds_labels(file) or (named and kind in (ImportFormat.coco, ImportFormat.labelme))
     is_photo = named or file.suffix.lower() in SUFFIXES
+    other = None if is_document or (named and kind is not ImportFormat.auto) else _other_kind_of(file)
     if is_document and kind != ImportFormat.images:
-        _read(file, sources, kind=kind, polygons=polygons)
+        _read(file, sources, kind=kind, polygons=polygons, named=named)
+    elif other is not None:
+        sources.problems.append(Problem(str(file), "", f"It was passed over: it is {other}."))
+        sources.unreadable.extend([str(file)] if other.has_labels else [])
     elif is_photo and kind in (ImportFormat.auto, ImportFormat.images):
         sources.photos.append(file)
     elif named:
@@ -107,19 +124,47 @@ def _take(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygon
         sources.problems.append(Problem(str(file), "", reason))
 
 
+def _other_kind_of(file: Path) -> OtherKind | None:
+    """What a file is that is known and not read."""
+    if file.suffix.lower() in SUFFIXES:
+        return MASKS if is_picture_of_masks(file) else None
+    try:
+        return other_kind_of(file)
+    except OSError:
+        return None
+
+
 def _holds_labels(file: Path) -> bool:
     return file.name.lower().endswith(LABEL_SUFFIXES)
 
 
-def _read(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons) -> None:
+def _read(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygons, named: bool) -> None:
     try:
         data = file.read_bytes()
-        found = _parse(unzipped(data), file=str(file), kind=kind, polygons=polygons)
-        sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
-    except FairyringError as error:
-        sources.problems.append(Problem(str(file), "", str(error)))
+        text = unzipped(data)
     except OSError as error:
-        sources.problems.append(Problem(str(file), "", f"It cannot be read: {error.strerror}."))
+        _cannot_be_read(file, f"It cannot be read: {error.strerror}.", sources)
+        return
+    except FairyringError as error:
+        _cannot_be_read(file, str(error), sources)
+        return
+    try:
+        found = _parse(text, file=str(file), kind=kind, polygons=polygons)
+        sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
+    except FormatError as error:
+        other = other_kind_of_json(text)
+        if other is None and not named:
+            reason = "It was passed over: there are no labels in it that could be read."
+            sources.problems.append(Problem(str(file), "", reason))
+        else:
+            _cannot_be_read(file, str(error) if other is None else f"This is {other}.", sources)
+    except FairyringError as error:
+        _cannot_be_read(file, str(error), sources)
+
+
+def _cannot_be_read(file: Path, reason: str, sources: Sources) -> None:
+    sources.problems.append(Problem(str(file), "", reason))
+    sources.unreadable.append(str(file))
 
 
 def _parse(data: bytes, *, file: str, kind: ImportFormat, polygons: Polygons) -> Found:

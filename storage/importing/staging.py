@@ -41,8 +41,10 @@ class Staging:
                 )
             return
         try:
-            shutil.copyfile(photo.source, self._folder / photo.file_name)
-            sync(self._folder / photo.file_name)
+            copy = self._folder / photo.file_name
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(photo.source, copy)
+            sync(copy)
         except OSError as error:
             raise StoreError(
                 f"{photo.source} cannot be copied into the project: {error.strerror}."
@@ -54,8 +56,9 @@ class Staging:
         In the temporary folder they stay until that is done: a later import knows by them what a killed one
         moved in.
         """
-        for copy in sorted(self._folder.iterdir()):
-            target = self._images / copy.name
+        for copy in _files_below(self._folder):
+            target = self._images / copy.relative_to(self._folder)
+            target.parent.mkdir(parents=True, exist_ok=True)
             try:
                 os.link(copy, target)
             except FileExistsError as error:
@@ -63,12 +66,13 @@ class Staging:
             except OSError:
                 copy.replace(target)  # a drive without links
             self._moved_in.append(target)
-        sync(self._images)
+        for folder in {self._images, *(target.parent for target in self._moved_in)}:
+            sync(folder)
 
     def undo(self) -> None:
         """Removes what was moved in: its rows were not committed."""
         for target in self._moved_in:
-            target.unlink(missing_ok=True)
+            _remove(target, within=self._images)
         self._moved_in.clear()
 
 
@@ -100,7 +104,21 @@ def clear_killed_imports(project: Project) -> None:
     for folder in leftovers_in(project.images):
         with project.read() as connection:
             entered = set(connection.execute(select(schema.image.c.file_name)).scalars())
-        for copy in folder.iterdir():
-            target = project.images / copy.name
-            if copy.name not in entered and target.exists() and target.samefile(copy):
-                target.unlink()
+        for copy in _files_below(folder):
+            name = copy.relative_to(folder)
+            target = project.images / name
+            if name.as_posix() not in entered and target.exists() and target.samefile(copy):
+                _remove(target, within=project.images)
+
+
+def _files_below(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.rglob("*") if path.is_file())
+
+
+def _remove(photo: Path, *, within: Path) -> None:
+    """Removes a photo, and the folders for it that are empty then."""
+    photo.unlink(missing_ok=True)
+    for folder in photo.parents:
+        if folder == within or not folder.is_dir() or any(folder.iterdir()):
+            return
+        folder.rmdir()

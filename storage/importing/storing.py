@@ -52,7 +52,11 @@ class ImportReport(Struct, frozen=True, kw_only=True):
     """The run that new predictions belong to."""
     polygons: int = 0
     """How many polygons of labelme there were, which may be taken in two ways."""
+    boxes: int = 0
+    """How many of the new ones are boxes, to be corrected."""
     problems: list[Problem]
+    useless: list[str] = []
+    """Files of labels of which no label could be used."""
 
 
 class Parcel(Struct, frozen=True, kw_only=True):
@@ -83,6 +87,7 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
         images_known=len(intake.seen) - len(new),
         polygons=sum(document.found.polygons for document in parcel.sources.documents),
         problems=intake.problems,
+        useless=intake.useless,
     )
     if parcel.compared is None:
         report = _store_predictions(connection, parcel, photos, report)
@@ -95,7 +100,8 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
 
 def _path_of(photo: Photo, *, link: bool) -> str:
     """As the project keeps it."""
-    return str(photo.source and photo.source.resolve()) if link else f"{IMAGES}/{photo.file_name}"
+    linked = link and not photo.within_labels
+    return str(photo.source and photo.source.resolve()) if linked else f"{IMAGES}/{photo.file_name}"
 
 
 def _store_annotations(
@@ -107,8 +113,10 @@ def _store_annotations(
     entered = enter_annotations(connection, labelled, categories=_categories(parcel), user=parcel.user)
     edits = [edit for each in compared for edit in edits_of(each, parcel.known_caps)]
     record(connection, edits, user=parcel.user)
+    boxes = sum(cap.is_box for each in compared for cap in each.new)
     return structs.replace(
         report,
+        boxes=boxes,
         annotations=entered.new,
         known=entered.known + sum(each.known for each in compared),
         changed=sum(len(each.changed) for each in compared),

@@ -91,7 +91,7 @@ ROWS = {
     "RLE of booleans": seen({"size": [80, 100], "counts": [True] * 8000}, "must be whole numbers"),
     "an RLE of a square": seen({"size": [80, 100], "counts": [810, *[20, 60] * 19, 20, 5650]}),
     "nothing seen and nothing drawn": seen([], "outline"),
-    "nothing but a box": Row(keys={"bbox": [10, 10, 20, 20]}, said="outline", to=PIXELS),
+    "nothing but a box": Row(keys={"bbox": [10, 10, 20, 20]}, said="outline", to=(MASKS, CENTRES, CONTOUR)),
     "null beside a circle": Row(
         keys={"segmentation": None, "circle": [20, 20, 10]}, said="no visible outline", to=(CONTOUR,)
     ),

@@ -203,7 +203,15 @@ def test_a_note_that_names_other_places_is_not_followed(worked_on: Project, tmp_
     back_up(worked_on, tmp_path / "backup")
     note = tmp_path / "backup" / "backup.json"
     document = json.loads(note.read_text())
-    for name in ("../secret", "images/../../secret", "/etc/passwd", "images/..", "images/a/b", "project.db"):
+    for name in (
+        "../secret",
+        "images/../../secret",
+        "/etc/passwd",
+        "images/..",
+        "images/",
+        "images//a",
+        "project.db",
+    ):
         note.write_text(json.dumps(document | {"files": {name: "0" * 64}}))
         with pytest.raises(StoreError, match="where no backup keeps anything"):
             read_note(tmp_path / "backup")

@@ -193,12 +193,21 @@ def test_what_cannot_be_written_again_is_left_out_and_the_image_taken(key):
     assert f"Its {key} cannot be kept" in found.problems[-1].reason
 
 
-def test_two_images_of_one_base_name_are_not_mixed_up():
+def test_images_of_one_base_name_in_two_folders_are_two():
     images = [{"id": 1, "file_name": "monday/1.png"}, {"id": 2, "file_name": "tuesday/1.png"}]
     found = parse([{"segmentation": [SQUARE]}, {"image_id": 2, "segmentation": [SQUARE]}], images=images)
-    assert [(image.file_name, len(image.caps)) for image in found.images] == [("1.png", 1)]
-    assert [where for where, _ in reasons(found)] == ["image 2", "image 2"]
-    assert "is called 1.png too, in another folder" in found.problems[0].reason
+    assert [(image.file_name, len(image.caps)) for image in found.images] == [
+        ("monday/1.png", 1),
+        ("tuesday/1.png", 1),
+    ]
+    assert reasons(found) == []
+
+
+def test_an_image_that_is_listed_twice_is_reported():
+    images = [{"id": 1, "file_name": "a\\1.png"}, {"id": 2, "file_name": "./a/1.png"}]
+    found = parse([{"segmentation": [SQUARE]}], images=images)
+    assert [image.file_name for image in found.images] == ["a/1.png"]
+    assert reasons(found) == [("image 2", "Another image of this file is called 1.png too; rename one.")]
 
 
 def test_a_category_with_keys_that_cannot_be_kept_is_still_a_category():
@@ -225,7 +234,7 @@ def test_an_unknown_light_does_not_keep_the_image_out():
         (b"{}", "neither a COCO file with a list of images"),
         (b'{"images": {}}', "neither a COCO file with a list of images"),
         (b'{"images": [], "annotations": 5}', "annotations are not a list"),
-        (b"[]", "list of results without images"),
+        (b"[]", "a list without results"),
         (b"[" * 100_000, "nested too deeply"),
     ],
 )

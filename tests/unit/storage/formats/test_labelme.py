@@ -71,7 +71,9 @@ def test_a_group_with_two_circles_is_a_cluster_and_not_a_cap():
     [
         (shape([[1, 1], [2, 2], [3, 1]], shape_type="circle"), "A circle is two points"),
         (shape([[1, 1]], shape_type="circle"), "this has 1"),
-        (shape(shape_type="rectangle"), "Shapes of type 'rectangle' are not known here"),
+        (shape(shape_type="linestrip"), "Shapes of type 'linestrip' are not known here"),
+        (shape(shape_type="mask"), "Its mask is no PNG"),
+        (shape(shape_type="mask", mask="iVBORw0KGgo="), "Its mask is no PNG"),
         (shape(shape_type=["polygon"]), "are not known here"),
         (shape([[1, 1], [2, 2], [float("nan"), 1]]), "A point is not 2 finite numbers"),
         (shape([[1, 1], [2, 2], [True, 1]]), "A point is not 2 finite numbers"),

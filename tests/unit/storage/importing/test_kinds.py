@@ -91,7 +91,7 @@ def test_all_that_is_passed_over_in_a_folder_is_named(project, tmp_path, write_p
         "linked": "It was passed over: it is a symbolic link",
         "linked.png": "It was passed over: it is a symbolic link",
         "broken.png": "It was passed over: it is a symbolic link",
-        "bed.heic": "It was passed over: by its name it is neither a photo nor a file of labels.",
+        "bed.heic": "It was passed over: it is a photo in HEIC, which is not read",
         "notes.txt": "It was passed over: by its name it is neither a photo nor a file of labels.",
         "video": "It was passed over: by its name it is neither a photo nor a file of labels.",
     }

@@ -9,7 +9,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.images import find_image
 from fairyring.storage.importing.intake import Facts
 from fairyring.storage.importing.paths import import_paths
-from tests.support.imported import files_of, reasons
+from tests.support.imported import files_of
 
 
 def test_photos_are_copied_with_size_hash_and_what_was_said_of_them(project, tmp_path, write_photo):
@@ -39,14 +39,6 @@ def test_a_folder_is_searched_to_the_bottom(project, tmp_path, write_photo):
     (folder / "link.png").symlink_to(folder / "b.png")
     assert import_paths(project, [folder]).images == 2
     assert files_of(project) == ["a.jpg", "b.png"]
-
-
-def test_a_second_photo_of_the_same_name_is_reported(beds, tmp_path, write_photo):
-    other = write_photo(tmp_path / "other" / "bed_1.png", seed=5)
-    good = write_photo(tmp_path / "other" / "good.png")
-    report = import_paths(beds, [other, good])
-    assert report.images == 1
-    assert reasons(report) == ["Another image is called bed_1.png already; rename one of them."]
 
 
 def test_bad_photos_are_reported_by_name_and_the_good_ones_taken(project, tmp_path, write_photo):
