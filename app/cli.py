@@ -14,6 +14,7 @@ from fairyring.app.commands import (
     contour,
     demo,
     evaluate,
+    images,
     imports,
     network,
     project,
@@ -36,6 +37,9 @@ app.command("init")(project.init)
 app.command("import")(imports.import_)
 app.command("serve")(serve.serve)
 app.command("export")(project.export)
+app.command("take-out")(images.take_out)
+app.command("put-back")(images.put_back)
+app.command("relink")(images.relink)
 app.command("backup")(project.backup)
 app.command("restore")(project.restore)
 app.command("demo")(demo.demo)

@@ -9,6 +9,7 @@ DATABASE = "project.db"
 IMAGES = "images"
 WEIGHTS = "weights"
 CACHE = "cache"
+TAKEN_OUT = "taken_out"
 NOTE_OF_BACKUP = "backup.json"
 
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import os
 from enum import StrEnum
-from fnmatch import fnmatchcase
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairyring.app.commands.images import images_called
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
@@ -19,7 +19,6 @@ from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
     from fairyring.model.predict.passes import Pass
-    from fairyring.storage.project import Project
 
 
 class Device(StrEnum):
@@ -157,7 +156,7 @@ def predict(
     from fairyring.storage.project import open_project
 
     with open_project(folder) as project:
-        wanted = _images_called(project, images)
+        wanted = images_called(project, [images])
         # Loading torch takes a while, which a wrong name need not wait for.
         from fairyring.app.jobs.predicting import network_of, predict_images
         from fairyring.app.weights import require_weights
@@ -192,20 +191,3 @@ def passes_of(*, fast: bool) -> tuple[Pass, ...]:
     from fairyring.model.predict.passes import ONE_PASS, TWO_PASSES
 
     return ONE_PASS if fast else TWO_PASSES
-
-
-def _images_called(project: Project, pattern: str) -> list[int]:
-    from fairyring.storage.images import ImageFilter, get_image, list_ids
-
-    with project.read() as connection:
-        images = [get_image(connection, number) for number in list_ids(connection, ImageFilter())]
-    found = [
-        image.id
-        for image in images
-        if fnmatchcase(image.file_name, pattern) or fnmatchcase(PurePosixPath(image.file_name).name, pattern)
-    ]
-    if not images:
-        raise FairyringError(f"{project.folder} holds no images; take some in with fairyring import.")
-    if not found:
-        raise FairyringError(f"No image of {project.folder} is called {pattern}; check --images.")
-    return found

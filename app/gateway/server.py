@@ -44,6 +44,7 @@ from fairyring.model.errors import FairyringError
 from fairyring.storage.importing.staging import clear_killed_imports
 from fairyring.storage.project import Project, open_project
 from fairyring.storage.serving import served
+from fairyring.storage.taken_out import let_go
 from fairyring.storage.whole_folders import clear_leftovers
 
 log = logging.getLogger(__name__)
@@ -117,6 +118,7 @@ def make_app(workspace: Workspace, *, door: Door | None) -> ASGIApp:
             watching.cancel()
             await asyncio.gather(watching, return_exceptions=True)
             await workspace.close()
+            await asyncio.to_thread(let_go, workspace.project)
             await asyncio.to_thread(stop_viser, panels)
 
     cache_limit = workspace.settings.photo_cache_mb * 2**20

@@ -11,6 +11,7 @@ from sqlalchemy import Connection
 from fairyring.app.live.opening import CHANGES_IMAGE, reopen
 from fairyring.app.live.session import Session
 from fairyring.app.live.statuses import tell_status
+from fairyring.app.live.taking_out import leave_missing
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Changed, Predicted
 from fairyring.model.errors import FairyringError
@@ -44,6 +45,7 @@ async def _written_by_others(workspace: Workspace) -> int | None:
 
 async def catch_up(workspace: Workspace) -> None:
     """Brings every tab up to what the store holds now."""
+    await leave_missing(workspace)
     for image_id in {tab.image.id for tab in workspace.tabs if tab.image is not None}:
         _, contents = await workspace.read(lambda c, i=image_id: workspace.recent.load(c, i))
         for tab in workspace.tabs.others_on(image_id):

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
+import anyio.to_thread
 from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
 from fairyring.app.live.session import Session
+from fairyring.app.live.taking_out import put_back_last, take_out_shown
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
@@ -22,6 +24,7 @@ from fairyring.storage.images import (
     list_images,
     position_in_list,
 )
+from fairyring.storage.taken_out import taken_out
 
 PAGE = 10
 ANY = "any"
@@ -53,6 +56,10 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         order = gui.add_dropdown("Order", tuple(ORDERS))
     shown = gui.add_html("")
     pages = gui.add_button_group("Page", ("«", "‹", "›", "»"))
+    out = gui.add_button(
+        "Take this image out", hint="With its labels; until the project is closed it can be put back"
+    )
+    back = gui.add_button("Put back", visible=False)
 
     async def filter_changed() -> None:
         ordered = ORDERS[order.value]
@@ -73,6 +80,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         session.refresh("images")
 
     async def redraw() -> None:
+        kept = await anyio.to_thread.run_sync(taken_out, workspace.project)
+        back.visible = bool(kept)
+        back.label = f"Put back {kept[0].file_name}" if kept else "Put back"
         here = session.image.id if session.image else None
         wanted = at.page if here == at.image else None
         find = partial(_find, which=session.filter, here=here, wanted=wanted)
@@ -86,6 +96,8 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     for control in (search, status, light, form, order):
         control.on_update(person_did(session, filter_changed))
     pages.on_click(person_did(session, turn))
+    out.on_click(person_did(session, partial(take_out_shown, workspace, session)))
+    back.on_click(person_did(session, partial(put_back_last, workspace, session)))
     return redraw
 
 

@@ -58,7 +58,7 @@ LINE_OF_YOLO = re.compile(rb"\s*\d+(\s+-?[0-9.]+(e-?\d+)?){4,}\s*")
 MASK = re.compile(
     r"(?i)(.+?)[_.-](cp_masks?|masks?|seg|segmentation|labels?|labelids|instances?|instanceids|gt)"
 )
-MASK_FOLDERS = {"masks", "mask", "labels", "segmentations", "segmentationobject", "segmentationclass", "gt"}
+MASK_FOLDERS = {"masks", "mask", "segmentations", "segmentationobject", "segmentationclass"}
 PHOTO_FOLDERS = ("images", "imgs", "photos", "JPEGImages", "img")
 
 
@@ -140,7 +140,7 @@ def is_picture_of_masks(file: Path) -> bool:
     """Whether a picture is named after a photo that lies beside it, or in the folder for photos."""
     named = MASK.fullmatch(file.stem)
     folders = [file.parent]
-    if file.parent.name.lower() in MASK_FOLDERS:
+    if file.parent.name.lower() in MASK_FOLDERS and file.suffix.lower() not in (".jpg", ".jpeg"):
         above = file.parent.parent
         folders = [above, *(above / name for name in PHOTO_FOLDERS)]
     elif named is None:

@@ -28,6 +28,7 @@ DRAWINGS = {
     """,
     "storage": """
         importing  exporting  backup
+        taken_out  relinking
         journal  formats  migrations  image_history
         statuses
         project  images  contents  predictions  comparisons  derived  ledger

@@ -22,9 +22,9 @@ def names_of(project):
 def of_two_days(tmp_path, write_photo):
     """A folder with monday/bed.png and tuesday/bed.png."""
     for seed, day in enumerate(("monday", "tuesday")):
-        write_photo(tmp_path / "beds" / day / "bed.png", seed=seed)
-    write_photo(tmp_path / "beds" / "tuesday" / "other.png")
-    return tmp_path / "beds"
+        write_photo(tmp_path / "days" / day / "bed.png", seed=seed)
+    write_photo(tmp_path / "days" / "tuesday" / "other.png")
+    return tmp_path / "days"
 
 
 def test_photos_of_one_name_in_two_folders_are_two_images(project, of_two_days):
@@ -47,7 +47,7 @@ def test_the_second_of_a_name_in_a_later_import_gets_its_folder_too(beds, tmp_pa
 
 def test_labels_find_the_photo_of_their_folder(project, of_two_days, write_coco, square):
     import_paths(project, [of_two_days])
-    images = [{"id": 1, "file_name": "beds/monday/bed.png"}, {"id": 2, "file_name": "beds/tuesday/bed.png"}]
+    images = [{"id": 1, "file_name": "days/monday/bed.png"}, {"id": 2, "file_name": "days/tuesday/bed.png"}]
     annotations = [{"segmentation": square}, {"image_id": 2, "segmentation": TRIANGLE}]
     report = import_paths(project, [write_coco(annotations, images=images)], strict=True)
     assert report.annotations == 2
