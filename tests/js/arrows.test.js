@@ -34,10 +34,12 @@ const lineOf = (room) => LINES.findIndex((line) => line.trim().split(/\s+/).incl
 /** What a module imports by this pattern, as paths within the editor. @type {(file: string, pattern: RegExp) => string[]} */
 function importsOf(file, pattern) {
   const source = readFileSync(path.join(EDITOR, file), "utf-8");
-  return [...source.matchAll(pattern)].map(([, to]) => {
+  const imported = [...source.matchAll(pattern)].map(([, to]) => {
     assert.match(to, /^\.\.?\//, `${file} imports ${to}, which is not of the editor`);
     return path.relative(EDITOR, path.resolve(EDITOR, path.dirname(file), to));
   });
+  // What others wrote lies beside the editor, and only its geometry builds on it.
+  return imported.filter((to) => !(to.startsWith(path.join("..", "vendor")) && roomOf(file) === "geometry"));
 }
 
 const EVERYTHING = /(?:\bfrom\s+|\bimport\s+|\bimport\(|new URL\()"([^"]+)"/g;

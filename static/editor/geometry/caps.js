@@ -203,6 +203,20 @@ export function polygonOfCircle(circle) {
   ]);
 }
 
+/** The same for an ellipse, with as many points as its circle. @type {(whole: Whole) => number[]} */
+export function polygonOfWhole(whole) {
+  if (whole.kind === "circle") return polygonOfCircle(whole);
+  const { a, b, angle } = axesOf(whole);
+  const unit = polygonOfCircle({ kind: "circle", cx: 0, cy: 0, r: Math.max(a, b) });
+  return unit.map((_, i) => {
+    const k = i - (i % 2);
+    const [u, v] = [(unit[k] / Math.max(a, b)) * a, (unit[k + 1] / Math.max(a, b)) * b];
+    return i % 2
+      ? whole.cy + u * Math.sin(angle) + v * Math.cos(angle)
+      : whole.cx + u * Math.cos(angle) - v * Math.sin(angle);
+  });
+}
+
 /**
  * The circle of the same centre and area.
  *
@@ -217,4 +231,12 @@ export function circleOfWhole(whole) {
 /** Hundredths of a pixel: what is kept of where a hand has pointed. @type {(value: number) => number} */
 export function hundredths(value) {
   return Math.round(value * 100) / 100;
+}
+
+/** A circle or ellipse as a hand places it. @type {(whole: Whole) => Whole} */
+export function rounded(whole) {
+  const [cx, cy] = [hundredths(whole.cx), hundredths(whole.cy)];
+  if (whole.kind === "circle") return { ...whole, cx, cy, r: hundredths(whole.r) };
+  const [a, b] = [hundredths(whole.a), hundredths(whole.b)];
+  return { ...whole, cx, cy, a, b, theta_deg: hundredths(whole.theta_deg) % 180 };
 }

@@ -1,14 +1,17 @@
 /**
- * Which of some shapes is under the pointer, and which lie in a rectangle.
+ * Which of some shapes are under the pointer, and which lie in a rectangle.
  *
  * @module
  */
 
 import { contains, overlap } from "./bounds.js";
-import { axesOf, insideCap, measure, placedWhole, ringsOf } from "./caps.js";
+import { axesOf, insideCap, measure, placedWhole, polygonOfWhole, ringsOf } from "./caps.js";
+import { shared } from "./regions.js";
 import { isPrediction } from "./shapes.js";
 import { nearestEdges } from "./vertices.js";
 
+/** @typedef {import("../protocol.js").Cap} Cap */
+/** @typedef {import("../protocol.js").Outline} Outline */
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("./shapes.js").Shape} Shape */
 /** @typedef {import("./bounds.js").Bounds} Bounds */
@@ -26,10 +29,8 @@ const ANOTHER_CAP = 1.6;
  * @returns {Shape | null}
  */
 export function pick(shapes, point, reach) {
-  const inside = shapes.filter(({ cap }) => insideCap(cap, ...point));
-  if (inside.length) {
-    return inside.reduce((a, b) => (rank(b) < rank(a) ? b : a));
-  }
+  const [inside] = allAround(shapes, point);
+  if (inside) return inside;
   let best = reach;
   let found = null;
   for (const shape of shapes) {
@@ -39,6 +40,11 @@ export function pick(shapes, point, reach) {
     found = shape;
   }
   return found;
+}
+
+/** The shapes that a point lies in, the one that is meant first. @type {(shapes: Shape[], point: Point) => Shape[]} */
+export function allAround(shapes, point) {
+  return shapes.filter(({ cap }) => insideCap(cap, ...point)).sort((a, b) => rank(a) - rank(b));
 }
 
 /**
@@ -110,4 +116,20 @@ export function within(shapes, rect) {
     const { bounds } = measure(cap);
     return bounds !== null && contains(rect, bounds);
   });
+}
+
+/** The shapes of which anything lies in the rectangle. @type {(shapes: Shape[], rect: Bounds) => Shape[]} */
+export function touching(shapes, rect) {
+  const { x0, y0, x1, y1 } = rect;
+  return shapes.filter(({ cap }) => {
+    const { bounds } = measure(cap);
+    if (!bounds || !overlap(bounds, rect)) return false;
+    return contains(rect, bounds) || shared(seenOrMarked(cap), [[x0, y0, x1, y0, x1, y1, x0, y1]]).length > 0;
+  });
+}
+
+/** What is seen of a cap, else its mark. @type {(cap: Cap) => Outline} */
+function seenOrMarked(cap) {
+  if (cap.visible.length || !cap.mark) return cap.visible;
+  return [cap.mark.kind === "polygon" ? cap.mark.points : polygonOfWhole(cap.mark)];
 }

@@ -5,10 +5,12 @@
  */
 
 import { boundsOfPoints } from "./bounds.js";
+import { lengthOf, pointsOf } from "./places.js";
 import { areaOfRing, axesOf, insideRing, insideWhole, measure, placedWhole } from "./caps.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Circle} Circle */
+/** @typedef {import("../protocol.js").Fitted} Fitted */
 /** @typedef {import("../protocol.js").Outline} Outline */
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../protocol.js").Whole} Whole */
@@ -26,23 +28,44 @@ const LEAST_AREA = 0.2;
 /** Of two circles of one cap the smaller is this large at least, and the centres no farther apart, in radii. */
 const ALIKE = 0.5;
 const SAMPLES = 24;
+/** A cap of which less than this share of the whole outline is seen is half hidden; */
+const SEEN = 0.8;
+/** or one of whose outline more than this share is not its own rim. */
+const HIDDEN = 0.2;
 
 /**
  * Whether a circle is the mark of this cap, rather than a cap of its own beside it or upon it.
  *
  * @param {Circle} circle
  * @param {Pick<import("./shapes.js").Shape, "cap" | "whole">} shape
+ * @param {{halfHidden?: boolean}} [how]  a half-hidden cap without a mark is meant wherever the circle was begun
  * @returns {boolean}
  */
-export function isMarkOf(circle, { cap, whole }) {
+export function isMarkOf(circle, { cap, whole }, { halfHidden = false } = {}) {
   const placed = placedWhole(cap);
   if (cap.visible.length === 0) return placed !== null && alike(circle, placed);
   const { bounds, area } = measure({ ...cap, mark: null });
   if (!bounds || Math.PI * circle.r ** 2 < LEAST_AREA * area) return false;
   if (cap.visible.some((ring) => insideRing(ring, circle.cx, circle.cy))) return true;
+  if (halfHidden && !cap.mark) return shareInside(cap.visible, circle) >= LEAST_SHARE_INSIDE;
   const reach = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0);
   const least = whole && isWellInside(whole, circle) ? LEAST_SHARE_INSIDE : LEAST_SHARE;
   return reach >= LEAST_REACH * circle.r && shareInside(cap.visible, circle) >= least;
+}
+
+/**
+ * Whether much of a cap lies under its neighbours or beyond the photo, as far as its whole outline tells.
+ *
+ * @type {(shape: Pick<import("./shapes.js").Shape, "cap" | "whole">, fitted: Fitted | null) => boolean}
+ */
+export function isHalfHidden({ cap, whole }, fitted) {
+  const { area } = measure({ ...cap, mark: null });
+  const { a, b } = whole ? axesOf(whole) : { a: 0, b: 0 };
+  if (area < SEEN * Math.PI * a * b) return true;
+  const arcs = (fitted?.arcs ?? []).map(({ kind, points }) => ({ kind, length: lengthOf(pointsOf(points)) }));
+  const all = arcs.reduce((sum, { length }) => sum + length, 0);
+  const hidden = arcs.filter(({ kind }) => kind === "hidden" || kind === "border");
+  return hidden.reduce((sum, { length }) => sum + length, 0) > HIDDEN * all;
 }
 
 /** @type {(whole: Whole, circle: Circle) => boolean} */
