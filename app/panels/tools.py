@@ -6,9 +6,9 @@ from fairyring.app.live.session import Session
 from fairyring.app.panels.buttons import command_button, tool_button, worded_button
 from fairyring.app.panels.markup import Markup, element
 
-TOOLS = ("select", "polygon", "circle", "rim", "pan")
+TOOLS = ("select", "polygon", "circle", "rim_points", "rim", "split", "pan")
 STATUSES = ("to_do", "annotated", "approved")
-COMMANDS = ("undo", "redo", "fit", "accept_all", "done", "help")
+COMMANDS = ("undo", "redo", "fit", "tighten", "merge", "accept_all", "done", "help")
 
 
 def build(session: Session) -> None:

@@ -16,14 +16,22 @@ export default {
         { "name": "select", "keys": ["V"], "words": "Select and edit", "label": "Select" },
         { "name": "polygon", "keys": ["W"], "words": "Draw a visible outline", "label": "Outline" },
         { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
+        {
+          "name": "rim_points",
+          "keys": ["O"],
+          "words": "A circle by three points of its rim, an ellipse by five and more",
+          "label": "Points"
+        },
         { "name": "rim", "keys": ["R"], "words": "Redraw a stretch of a rim, add to a cap, cut from it", "label": "Rim" },
+        { "name": "split", "keys": ["K"], "words": "Make two caps of one with a stroke across it", "label": "Split" },
+        { "name": "part", "keys": ["Shift+W"], "words": "Draw another part of the selected cap" },
         { "name": "pan", "keys": ["G"], "words": "Move the view", "label": "Pan" },
-        { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn" },
+        { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn, take the circle or ellipse" },
         { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done (Ctrl+Z brings it back), then deselect" },
         {
           "name": "delete",
           "keys": ["Del", "Backspace"],
-          "words": "Delete the vertex under the pointer, else the selected caps",
+          "words": "Delete the vertex under the pointer, else the cap, else what is selected",
           "label": "Delete"
         }
       ]
@@ -36,6 +44,11 @@ export default {
         { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
         { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction" },
         { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions that are shown" },
+        { "name": "tighten", "keys": ["T"], "words": "Draw the selected outlines to the rim nearby", "label": "Tighten" },
+        { "name": "merge", "keys": ["J"], "words": "Make one cap of the selected ones", "label": "Merge" },
+        { "name": "copy", "keys": ["Ctrl+C"], "words": "Copy the selected caps" },
+        { "name": "paste", "keys": ["Ctrl+V"], "words": "Put them down at the pointer, on another photo at their places" },
+        { "name": "paste_before", "keys": ["Shift+V"], "words": "Put down the caps of the photo shown before" },
         { "name": "mark", "keys": ["M"], "words": "Take the outline as mark where there is none" },
         { "name": "unmark", "keys": ["Shift+M"], "words": "Take the mark away" },
         { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
@@ -84,12 +97,15 @@ export default {
   ],
   "held": [
     { "name": "pan", "key": "Space", "words": "Drag moves the view" },
-    { "name": "hide", "key": "H", "words": "Hide all shapes" }
+    { "name": "hide", "key": "H", "words": "Hide all shapes" },
+    { "name": "broom", "key": "B", "words": "Broom: delete the caps that the pointer runs over" }
   ],
   "gestures": [
     { "gesture": "Wheel", "words": "Zoom to the pointer" },
     { "gesture": "Drag the ground · middle or right drag", "words": "Move the view" },
-    { "gesture": "Click · Shift-click · Shift-drag", "words": "Select · add · select all inside" },
+    { "gesture": "Click · again", "words": "Select · what lies under it" },
+    { "gesture": "Shift-click", "words": "Add to the selection, or take from it" },
+    { "gesture": "Shift-drag to the right · to the left", "words": "Select all inside · all that is touched" },
     { "gesture": "Double click", "words": "Zoom to the cap" },
     { "gesture": "Drag a vertex", "words": "Move it; a dense outline follows (Alt: this vertex only)" },
     { "gesture": "Drag an edge", "words": "Put a vertex in" },

@@ -5,6 +5,7 @@
  */
 
 import { same } from "./geometry/same.js";
+import { toImage } from "./geometry/view.js";
 import { ACTIONS } from "./input/actions.js";
 import { bringFocusBack, switchFocus } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
@@ -130,7 +131,7 @@ export class Editor {
       drawings: this.#drawings,
       say: this.#say,
     });
-    this.#perform = this.#performer(host);
+    this.#perform = this.#performer(host, pointer, photos);
     this.#listen(host, pointer);
     this.#progress();
     expose(host, {
@@ -150,13 +151,16 @@ export class Editor {
   /**
    * Carries out commands by name; false for one that nobody knows, or that has nothing to do.
    *
-   * @type {(host: HTMLElement) => (name: string) => boolean}
+   * @type {(host: HTMLElement, pointer: Pointer, photos: Photos) => (name: string) => boolean}
    */
-  #performer(host) {
+  #performer(host, pointer, photos) {
     const context = {
       state: this.#state,
       tool: () => this.#toolbox.tool,
       use: (/** @type {string} */ name) => this.#toolbox.use(name),
+      pointer: () => toImage(this.#state.viewport.view, ...pointer.at),
+      patch: (/** @type {import("./geometry/bounds.js").Bounds} */ bounds) => photos.patch(bounds),
+      drawPart: () => this.#toolbox.drawPart(),
       finish: () => this.#toolbox.finish(),
       undo: () => this.#sync.undo(),
       redo: () => this.#sync.redo(),
@@ -181,6 +185,7 @@ export class Editor {
       perform: this.#perform,
       state,
       pointer,
+      sweep: (held) => this.#toolbox.sweep(held),
       pressed: (at) => this.#frame.causedBy(at, "key"),
     });
     listenToPanel({

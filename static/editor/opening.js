@@ -70,6 +70,7 @@ export class Opening {
     const { state, toolbox, frame, drawings, say } = this.#parts;
     const name = state.image?.file_name;
     toolbox.leave();
+    if (state.image) state.clipboard.leave(state.items.all, state.image.id);
     if (drawings.leave() && name) say(`The outline stays half drawn on ${name}.`, "info");
     frame.blank();
   }

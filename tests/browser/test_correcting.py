@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 
 from fairyring.app.bench.browser.tab import Tab, centroid
 from fairyring.app.bench.serving import Server
+from fairyring.model.geometry.shapes import area_of_outline
 from tests.support.kept import journal_of, kept_cap, live_caps
 
 CORNERS = [(12.0, 12.0), (52.0, 10.0), (58.0, 40.0), (30.0, 55.0), (8.0, 38.0)]
@@ -209,8 +211,8 @@ def test_a_circle_dragged_on_bare_soil_is_a_new_cap(tab: Tab, project: Path) -> 
     [uid] = live_caps(project)
     kept = kept_cap(project, uid)
     assert kept is not None
-    assert kept["visible"] == []
     assert kept["mark"]["r"] == pytest.approx(18.0, abs=1.0)
+    assert area_of_outline(kept["visible"]) == pytest.approx(math.pi * 18**2, rel=0.15)
 
 
 def test_a_deleted_prediction_is_gone_after_a_reload(tab: Tab, project: Path) -> None:

@@ -53,7 +53,7 @@ compare(
 );
 compare(
   `the caps in a rubber band of 200 × 200 px, of ${CAPS}`,
-  () => bands.forEach((band) => state.within(band)),
+  () => bands.forEach((band) => within(state.near(band), band)),
   () => bands.forEach((band) => within(state.items.all, band)),
 );
 compare(

@@ -31,14 +31,27 @@ def make_empty_bed(folder: Path) -> Path:
     return folder / "beds"
 
 
-def make_bed(folder: Path, caps: Sequence[Sequence[list[float]]], *, said: bool = False) -> Path:
-    """A project with one photo for each list of outlines: annotations, or what a network ``said``."""
+def make_bed(
+    folder: Path,
+    caps: Sequence[Sequence[list[float]]],
+    *,
+    said: bool = False,
+    discs: Sequence[tuple[int, int, int]] = (),
+) -> Path:
+    """A project with one photo for each list of outlines: annotations, or what a network ``said``.
+
+    ``discs`` are bright in every photo: centre and radius, pixels.
+    """
     source, project = folder / "source", folder / "project"
     source.mkdir()
     images, annotations = [], []
     for number, outlines in enumerate(caps, start=1):
         name = f"bed_{number}.png"
-        cv2.imwrite(str(source / name), np.full((SIZE[1], SIZE[0], 3), 20 * number, np.uint8))
+        photo = np.full((SIZE[1], SIZE[0], 3), 20 * number, np.uint8)
+        for x, y, r in discs:
+            # The middle of pixel i is i + 0.5, for OpenCV i; it takes sixteenths.
+            cv2.circle(photo, (16 * x - 8, 16 * y - 8), 16 * r, (200, 200, 200), -1, cv2.LINE_AA, 4)
+        cv2.imwrite(str(source / name), photo)
         images.append({"id": number, "file_name": name, "width": SIZE[0], "height": SIZE[1]})
         annotations += [
             {"id": len(annotations) + k, "image_id": number, "category_id": 1, "segmentation": [outline]}

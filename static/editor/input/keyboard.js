@@ -12,14 +12,16 @@ import { commandOf, heldBy } from "./keys.js";
  * @property {(command: string) => boolean} perform  false for a command that nobody knows
  * @property {import("../state/editor_state.js").EditorState} state
  * @property {import("./pointer.js").Pointer} pointer
+ * @property {(held: boolean) => void} sweep  takes up the broom for as long as its key is held
  * @property {(at: number) => void} pressed  a key that runs a command, and when
  */
 
 /** @type {(parts: Parts) => void} */
-export function listenToKeys({ perform, state, pointer, pressed }) {
+export function listenToKeys({ perform, state, pointer, sweep, pressed }) {
   const hold = (/** @type {string | null} */ what, /** @type {boolean} */ down) => {
     if (what === "pan") pointer.panKey = down;
     else if (what === "hide") state.layers.allHidden = down;
+    else if (what === "broom") sweep(down && !pointer.pressed);
     else return false;
     pointer.cursor();
     state.signals.overlay.emit();
@@ -40,6 +42,7 @@ export function listenToKeys({ perform, state, pointer, pressed }) {
   listen("keyup", up);
   window.addEventListener("blur", () => {
     pointer.panKey = state.layers.allHidden = false;
+    sweep(false);
     state.signals.overlay.emit();
   });
 }

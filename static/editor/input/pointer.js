@@ -55,6 +55,11 @@ export class Pointer {
     host.addEventListener("contextmenu", (event) => event.preventDefault());
   }
 
+  /** Whether a tool is at work. */
+  get pressed() {
+    return this.#pressed;
+  }
+
   /** @type {(event: MouseEvent) => Press} */
   #press(event) {
     const box = this.#host.getBoundingClientRect();

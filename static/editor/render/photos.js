@@ -83,6 +83,25 @@ export class Photos {
     );
   }
 
+  /**
+   * How bright a piece of the photo on screen is, in its full resolution.
+   *
+   * @type {(bounds: Bounds) => Promise<import("../geometry/tightening.js").Patch>}
+   */
+  async patch(bounds) {
+    const bitmap = this.#full && this.#bitmap ? this.#bitmap : await this.#fetch(this.#url);
+    const step = this.#size.width / bitmap.width;
+    const [x0, y0] = [bounds.x0, bounds.y0].map((at) => Math.max(0, Math.floor(at / step)));
+    const width = Math.min(bitmap.width, Math.ceil(bounds.x1 / step)) - x0;
+    const height = Math.min(bitmap.height, Math.ceil(bounds.y1 / step)) - y0;
+    const context = new OffscreenCanvas(width, height).getContext("2d");
+    if (!context) throw new Error("This browser gives no access to the photo's pixels.");
+    context.drawImage(bitmap, -x0, -y0);
+    const { data } = context.getImageData(0, 0, width, height);
+    const values = Float32Array.from({ length: width * height }, (_, i) => luma(data, 4 * i));
+    return { values, width, height, x0: x0 * step, y0: y0 * step, step };
+  }
+
   /** @type {(scale: number) => void} */
   #sharpen(scale) {
     if (this.#full || scale * this.#size.width <= SMALL_WIDTH * 1.2) return;
@@ -120,4 +139,9 @@ async function decoded(url) {
 /** The photo scaled down to 2000 pixels; a smaller one comes as it is. @type {(url: string) => string} */
 function smaller(url) {
   return `${url}${url.includes("?") ? "&" : "?"}w=${SMALL_WIDTH}`;
+}
+
+/** @type {(data: Uint8ClampedArray, i: number) => number} */
+function luma(data, i) {
+  return 0.299 * data[i] + 0.587 * data[i + 1] + 0.114 * data[i + 2];
 }

@@ -7,10 +7,12 @@
 
 import { joinedAll } from "../geometry/bounds.js";
 import { placedWhole } from "../geometry/caps.js";
-import { pick, within, withRimNear } from "../geometry/hit.js";
+import { allAround, pick, withRimNear } from "../geometry/hit.js";
 import { boundsOf, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
 import { changed } from "./changes.js";
+import { Clipboard } from "./clipboard.js";
 import { Drafts } from "./drafts.js";
+import { Gesture } from "./gesture.js";
 import { HalfDrawn } from "./half_drawn.js";
 import { Items } from "./items.js";
 import { Layers } from "./layers.js";
@@ -35,6 +37,7 @@ export class EditorState {
   items = new Items(this.store);
   selection = new Selection();
   drafts = new Drafts();
+  clipboard = new Clipboard();
   halfDrawn = new HalfDrawn();
   layers = new Layers();
   viewport = new Viewport(() => this.signals.overlay.emit());
@@ -56,8 +59,7 @@ export class EditorState {
     nudge: signal(),
   };
 
-  /** The revisions of all caps when the press that is under way began. @type {Map<string, number>} */
-  #gesture = new Map();
+  #gesture = new Gesture();
   #commit;
 
   /** @param {(changes: Change[]) => void} commit  puts changes into the store and sends them */
@@ -147,7 +149,7 @@ export class EditorState {
    */
   at([x, y], reach) {
     const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
-    return pick(this.#visibleOf(this.items.near(around)), [x, y], reach);
+    return pick(this.near(around), [x, y], reach);
   }
 
   /**
@@ -157,12 +159,17 @@ export class EditorState {
    */
   rimsNear([x, y], reach) {
     const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
-    return withRimNear(this.#visibleOf(this.items.near(around)), [x, y], reach);
+    return withRimNear(this.near(around), [x, y], reach);
   }
 
-  /** The visible items that lie wholly in the rectangle. @type {(bounds: Bounds) => Shape[]} */
-  within(bounds) {
-    return within(this.#visibleOf(this.items.near(bounds)), bounds);
+  /** The visible items that a point lies in, the one that is meant first. @type {(point: Point) => Shape[]} */
+  allAt([x, y]) {
+    return allAround(this.near({ x0: x, y0: y, x1: x, y1: y }), [x, y]);
+  }
+
+  /** The visible items of which anything may be drawn in the rectangle. @type {(bounds: Bounds) => Shape[]} */
+  near(bounds) {
+    return this.#visibleOf(this.items.near(bounds));
   }
 
   /**
@@ -268,8 +275,7 @@ export class EditorState {
    */
   commit(changes) {
     if (changes.length && this.halfDrawn.empty) this.halfDrawn.begin([]);
-    this.#commit(changes.map((change) => this.#asBegun(change)));
-    for (const { after } of changes) this.#gesture.delete(after.uid);
+    this.#commit(this.#gesture.asBegun(changes));
     /** @type {Map<string, string>} */
     const heirs = new Map();
     for (const { before, after } of changes) {
@@ -282,23 +288,10 @@ export class EditorState {
   /** A press begins a gesture: what it does to caps it does to them as they are now. */
   beginGesture() {
     this.commitDrafts();
-    this.#gesture = new Map(this.items.all.map(({ uid, revision }) => [uid, revision]));
+    this.#gesture.begin(this.items.all);
   }
 
   endGesture() {
-    this.#gesture.clear();
-  }
-
-  /**
-   * A change made by a gesture is one of the cap as it was when the gesture began.
-   *
-   * @type {(change: Change) => Change}
-   */
-  #asBegun(change) {
-    const { before } = change;
-    const revision = before && this.#gesture.get(before.uid);
-    return before && revision != null && revision < before.revision
-      ? { ...change, before: { ...before, revision } }
-      : change;
+    this.#gesture.end();
   }
 }

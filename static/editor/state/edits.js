@@ -35,6 +35,27 @@ export function deleteSelected(state) {
   const shapes = state.selected;
   if (shapes.length === 0) return;
   state.select([]);
+  deleteShapes(state, shapes);
+}
+
+/**
+ * Deletes what is meant: several caps that are selected, else the one that was pointed at last, else the one that
+ * is selected.
+ *
+ * @type {(state: EditorState) => void}
+ */
+export function deleteMeant(state) {
+  const { uids, hovered } = state.selection;
+  const pointed = uids.size < 2 && hovered !== null && !state.layers.allHidden;
+  const shape = pointed ? state.items.get(hovered) : null;
+  if (!shape) return deleteSelected(state);
+  // With nothing selected, the key pressed once more deletes no other cap. It also ends what is being nudged.
+  state.select([]);
+  deleteShapes(state, [shape]);
+}
+
+/** @type {(state: EditorState, shapes: Shape[]) => void} */
+export function deleteShapes(state, shapes) {
   state.commit(shapes.map((shape) => changed(shape, { ...shape, deleted: true })));
 }
 

@@ -25,7 +25,7 @@ export class Selection {
     return this.#uids;
   }
 
-  /** The cap under the pointer, unless it is selected. */
+  /** The cap that was pointed at since the selection was made, unless it is selected. */
   get hovered() {
     return this.#hovered;
   }
@@ -50,6 +50,7 @@ export class Selection {
     const before = [...this.#uids];
     this.#uids = new Set(uids);
     this.#handle = null;
+    this.hover(null);
     const changed = !same(before, uids);
     if (changed) this.changed.emit(before, uids);
     return changed;

@@ -68,7 +68,7 @@ test("hidden predictions are neither accepted, nor picked, nor found by a rectan
   hide(state, "prediction");
   acceptAll(state);
   assert.deepEqual([committed, state.at([50, 50], 5)], [[], null]);
-  assert.deepEqual(state.within({ x0: -1, y0: -1, x1: 101, y1: 101 }), []);
+  assert.deepEqual(state.near({ x0: -1, y0: -1, x1: 101, y1: 101 }), []);
 });
 
 test("as long as a key hides all caps nothing is done to any, and afterwards the same are selected", () => {

@@ -1,19 +1,14 @@
 /**
  * Drags a circle out from its centre: the mark of the selected cap where it lies around what is seen of that,
- * else a new cap of which nothing but the circle is known. Which of the two it will be is written beside it.
+ * else a new cap. Which of the two it will be is written beside it.
  *
  * @module
  */
 
-import { hundredths, newCap, placedWhole } from "../../geometry/caps.js";
+import { hundredths, placedWhole } from "../../geometry/caps.js";
 import { SMALLEST_RADIUS, movedHandle, shownHandle } from "../../geometry/handles.js";
-import { isMarkOf } from "../../geometry/marks.js";
-import { newShape, withCap } from "../../geometry/shapes.js";
-import { toScreen } from "../../geometry/view.js";
-import { newId } from "../../ids.js";
-import { CASING, COLOURS, FILLS } from "../../render/palette.js";
-import { strokeCased, traceCross, traceWhole, writeCentred } from "../../render/paths.js";
-import { changed } from "../../state/changes.js";
+import { withCap } from "../../geometry/shapes.js";
+import { drawPlaced, place } from "./placing.js";
 import { CLICK_PX, apart } from "./tool.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
@@ -102,31 +97,12 @@ export class CircleTool {
     this.#state.select(item ? [item.uid] : []);
   }
 
-  /** @type {(circle: Circle) => void} */
-  #place(circle) {
-    const state = this.#state;
-    const marked = this.#markedBy(circle);
-    if (marked) {
-      state.commit([changed(marked, withCap(marked, { ...marked.cap, mark: circle }))]);
-      return;
-    }
-    const after = newShape(newId(), newCap({ mark: circle }));
-    state.commit([{ before: null, after }]);
-    state.select([after.uid]);
-  }
-
-  /** The selected cap, where the circle is its mark. @type {(circle: Circle) => Shape | null} */
-  #markedBy(circle) {
-    const { sole } = this.#state;
-    return sole && isMarkOf(circle, sole) ? sole : null;
-  }
-
   /** Ends the drag as letting go would. */
   leave() {
     const circle = this.#circle;
     this.#start = this.#circle = this.#grip = null;
     this.#state.commitDrafts();
-    if (circle) this.#place(circle);
+    if (circle) place(this.#state, circle);
     this.#state.signals.overlay.emit();
   }
 
@@ -150,17 +126,8 @@ export class CircleTool {
   }
 
   /** @type {import("../../render/overlay.js").Sketch} */
-  sketch = (context, view) => {
-    const circle = this.#circle;
-    if (!circle) return false;
-    context.beginPath();
-    traceWhole(context, view, circle);
-    context.fillStyle = FILLS.mark;
-    context.fill();
-    traceCross(context, ...toScreen(view, circle.cx, circle.cy), 6);
-    strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
-    const [x, y] = toScreen(view, circle.cx, circle.cy + circle.r);
-    writeCentred(context, this.#markedBy(circle) ? "mark of the selected cap" : "new cap", x, y + 6);
-    return true;
+  sketch = (context) => {
+    if (this.#circle) drawPlaced(context, this.#state, this.#circle);
+    return this.#circle !== null;
   };
 }

@@ -6,20 +6,22 @@
  */
 
 import { hundredths, newCap } from "../../geometry/caps.js";
-import { newShape } from "../../geometry/shapes.js";
-import { comesRound } from "../../geometry/strokes.js";
+import { newShape, withCap } from "../../geometry/shapes.js";
+import { comesRound, simplified } from "../../geometry/strokes.js";
 import { FEWEST } from "../../geometry/vertices.js";
 import { toScreen } from "../../geometry/view.js";
 import { newId } from "../../ids.js";
 import { drawHalfDrawn } from "../../render/half_drawn.js";
-import { CLICK_PX, GRAB_PX, apart } from "./tool.js";
+import { changed } from "../../state/changes.js";
+import { CLICK_PX, GRAB_PX, STRAYS_PX, apart } from "./tool.js";
 
 /** @typedef {import("../../protocol.js").Point} Point */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
-const FREEHAND_PX = 7;
+/** Points drawn freehand lie so far apart, CSS pixels. */
+const FREEHAND_PX = 5;
 /** How far a double click may wander and still mean one point. */
 const DOUBLE_PX = 8;
 /** A held Ctrl+Z stops at the first point: so soon after it, it is not meant for what was done before. */
@@ -29,6 +31,8 @@ const STOPS_MS = 600;
 export class PolygonTool {
   name = "polygon";
   cursor = "crosshair";
+  /** The cap of which another part is drawn: a neighbour cuts it in two. @type {string | null} */
+  partOf = null;
   /** @type {Point | null} */
   #next = null;
   #closing = false;
@@ -39,15 +43,10 @@ export class PolygonTool {
   /** When the last point was taken back. */
   #emptied = -Infinity;
   #state;
-  #done;
 
-  /**
-   * @param {EditorState} state
-   * @param {() => void} done  a cap was drawn
-   */
-  constructor(state, done) {
+  /** @param {EditorState} state */
+  constructor(state) {
     this.#state = state;
-    this.#done = done;
   }
 
   get #drawn() {
@@ -56,9 +55,12 @@ export class PolygonTool {
 
   /** @type {(press: Press) => void} */
   hover(press) {
+    const { selection } = this.#state;
     this.#next = press.image;
     this.#closing = this.#closes(press);
     this.cursor = this.#closing ? "pointer" : "crosshair";
+    const item = this.#drawn.empty ? this.#state.at(press.image, 0) : null;
+    selection.hover(item && !selection.has(item.uid) ? item.uid : null);
     this.#state.signals.overlay.emit();
   }
 
@@ -105,7 +107,8 @@ export class PolygonTool {
   }
 
   /**
-   * Letting go near the start of a freehand outline, or after running on beyond it, closes it.
+   * Letting go near the start of a freehand outline, or after running on beyond it, closes it. Of what was drawn
+   * freehand those points stay that the eye tells apart at this zoom.
    *
    * @type {(press: Press) => void}
    */
@@ -114,8 +117,12 @@ export class PolygonTool {
     this.#before = null;
     const { points } = this.#drawn;
     if (before === null || points.length - before <= 2 * FEWEST) return;
-    const reach = GRAB_PX / this.#state.viewport.view.scale;
-    if (this.#closes(press) || comesRound(points, reach)) this.finish();
+    const { scale } = this.#state.viewport.view;
+    const closed = this.#closes(press) || comesRound(points, GRAB_PX / scale);
+    const first = Math.max(before - 1, 0);
+    const stroke = simplified(points.slice(first), STRAYS_PX / scale);
+    this.#drawn.begin([...points.slice(0, first), ...stroke]);
+    if (closed) this.finish();
   }
 
   /** The second press of a double click may have shaken farther than a single one may. @type {() => void} */
@@ -128,17 +135,23 @@ export class PolygonTool {
     this.finish();
   }
 
+  /** A cap more, or a part more of one. @type {(ring: number[]) => import("../../state/changes.js").Change} */
+  #changeBy(ring) {
+    const cap = this.partOf === null ? null : this.#state.items.get(this.partOf);
+    if (!cap) return { before: null, after: newShape(newId(), newCap({ visible: [ring] })) };
+    return changed(cap, withCap(cap, { ...cap.cap, visible: [...cap.cap.visible, ring] }));
+  }
+
   finish() {
     const { points } = this.#drawn;
     if (points.length === 0) return false;
     if (points.length < FEWEST) return true;
-    const after = newShape(newId(), newCap({ visible: [points.flat()] }));
-    this.#before = null;
+    const change = this.#changeBy(points.flat());
+    this.#before = this.partOf = null;
     this.#drawn.begin([]);
-    this.#state.commit([{ before: null, after }]);
-    this.#state.select([after.uid]);
-    this.#state.signals.draft.emit(after);
-    this.#done();
+    this.#state.commit([change]);
+    this.#state.select([change.after.uid]);
+    this.#state.signals.draft.emit(change.after);
     return true;
   }
 
@@ -159,13 +172,16 @@ export class PolygonTool {
   cancel() {
     const busy = !this.#drawn.empty;
     this.#drawn.drop();
-    this.#before = this.#next = null;
+    this.#before = this.#next = this.partOf = null;
     this.#state.signals.overlay.emit();
     return busy;
   }
 
   leave() {
-    if (this.#drawn.empty) this.#drawn.begin([]);
+    if (this.#drawn.empty) {
+      this.#drawn.begin([]);
+      this.partOf = null;
+    }
     this.#before = this.#next = null;
     this.#state.signals.overlay.emit();
   }

@@ -11,6 +11,8 @@ import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
 import { insertedVertices, mergedVertices, nearestEdges } from "../../geometry/vertices.js";
 import { toImage } from "../../geometry/view.js";
+import { drawBand, inBand } from "./band.js";
+import { Clicks } from "./clicks.js";
 import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
 import { VertexRemoval } from "./vertex_removal.js";
 
@@ -18,7 +20,7 @@ import { VertexRemoval } from "./vertex_removal.js";
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Point} Point */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
-/** @typedef {import("./rim.js").RimTool} RimTool */
+/** @typedef {import("./stroke.js").StrokeTool} StrokeTool */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
 
@@ -32,7 +34,7 @@ const PULL_PX = 16;
  *   | {kind: "shape", shapes: Shape[]}
  *   | {kind: "view"}
  *   | {kind: "rim"}
- *   | {kind: "band", to: Point}} Grip
+ *   | {kind: "band", band: import("./band.js").Band}} Grip
  */
 
 /** @implements {Tool} */
@@ -55,17 +57,19 @@ export class SelectTool {
   #state;
   #rim;
   #removal;
+  #clicks;
 
   /**
    * @param {EditorState} state
    * @param {Object} rest
    * @param {(text: string) => void} rest.say
-   * @param {RimTool} rest.rim  what Ctrl and a drag do
+   * @param {StrokeTool} rest.rim  what Ctrl and a drag do
    */
   constructor(state, { say, rim }) {
     this.#state = state;
     this.#rim = rim;
     this.#removal = new VertexRemoval(state, say);
+    this.#clicks = new Clicks(state);
   }
 
   /** @type {(press: Press) => void} */
@@ -122,7 +126,7 @@ export class SelectTool {
   /** @type {(press: Press) => Grip} */
   #gripAt(press) {
     const { selected, sole } = this.#state;
-    if (press.shift) return { kind: "band", to: press.image };
+    if (press.shift) return { kind: "band", band: { from: press.image, to: press.image } };
     if (press.ctrl) {
       this.#rim.down(press);
       return { kind: "rim" };
@@ -199,17 +203,18 @@ export class SelectTool {
 
   /** @type {(grip: Grip & {kind: "band"}, press: Press) => void} */
   #band(grip, press) {
-    grip.to = press.image;
+    grip.band = { ...grip.band, to: press.image };
     this.#state.signals.overlay.emit();
   }
 
   /** @type {(press: Press) => void} */
   up(press) {
     const grip = this.#grip;
+    const state = this.#state;
     if (!grip) return;
     if (grip.kind === "rim") this.#rim.up(press);
     else if (this.#moved) {
-      if (grip.kind === "band") this.#selectBand(grip);
+      if (grip.kind === "band") state.select([...new Set([...state.selection.uids, ...inBand(state, grip.band)])]);
       else if (grip.kind === "handle") this.#dropHandle(grip.handle);
       else this.#state.commitDrafts();
     } else if (grip.kind === "handle" && press.alt) {
@@ -228,24 +233,11 @@ export class SelectTool {
       this.#keepsActive = true;
       return;
     }
-    const item = state.at(press.image, this.#pixels(EDGE_PX));
+    const item = this.#clicks.meant(press);
     if (!press.shift) return state.select(item ? [item.uid] : []);
     if (!item) return;
     const others = [...state.selection.uids].filter((uid) => uid !== item.uid);
     state.select(state.selection.has(item.uid) ? others : [...others, item.uid]);
-  }
-
-  /** @type {(grip: Grip & {kind: "band"}) => void} */
-  #selectBand(grip) {
-    const state = this.#state;
-    const found = state.within(this.#bandBounds(grip));
-    state.select([...new Set([...state.selection.uids, ...found.map(({ uid }) => uid)])]);
-  }
-
-  /** @type {(grip: Grip & {kind: "band"}) => import("../../geometry/bounds.js").Bounds} */
-  #bandBounds({ to }) {
-    const [x, y] = this.#start?.image ?? to;
-    return { x0: Math.min(x, to[0]), y0: Math.min(y, to[1]), x1: Math.max(x, to[0]), y1: Math.max(y, to[1]) };
   }
 
   /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
@@ -300,19 +292,9 @@ export class SelectTool {
 
   /** @type {import("../../render/overlay.js").Sketch} */
   sketch = (context, view) => {
-    const { scale, x, y } = view;
     if (this.#grip?.kind === "rim") return this.#rim.sketch(context, view);
     if (this.#grip?.kind !== "band" || !this.#moved) return false;
-    const bounds = this.#bandBounds(this.#grip);
-    const [left, top] = [bounds.x0 * scale + x, bounds.y0 * scale + y];
-    const [right, bottom] = [bounds.x1 * scale + x, bounds.y1 * scale + y];
-    context.setLineDash([4, 3]);
-    context.strokeStyle = "#ffffff";
-    context.lineWidth = 1;
-    context.fillStyle = "rgba(255, 255, 255, 0.12)";
-    context.fillRect(left, top, right - left, bottom - top);
-    context.strokeRect(left, top, right - left, bottom - top);
-    context.setLineDash([]);
+    drawBand(context, view, this.#grip.band);
     return true;
   };
 }

@@ -36,6 +36,8 @@
 export const GRAB_PX = 9;
 export const EDGE_PX = 6;
 export const CLICK_PX = 4;
+/** A line drawn by hand strays no farther than this from what was drawn: the eye sees no more. */
+export const STRAYS_PX = 0.6;
 
 /** @type {(a: Point, b: Point) => number} */
 export function apart(a, b) {

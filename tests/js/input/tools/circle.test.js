@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
+import { areaOf } from "../../../../static/editor/geometry/regions.js";
 import { CircleTool } from "../../../../static/editor/input/tools/circle.js";
 import { capOf } from "../../support/caps.js";
 import { handOf } from "../../support/hand.js";
@@ -16,8 +17,8 @@ const HALF_HIDDEN = polygonOfCircle({ kind: "circle", cx: 200, cy: 200, r: 50 })
 const NEIGHBOUR = polygonOfCircle({ kind: "circle", cx: 232, cy: 200, r: 52 });
 const SHAPES = [storedShape("hidden", capOf(HALF_HIDDEN)), storedShape("neighbour", capOf(NEIGHBOUR))];
 
-function marking() {
-  const { state, committed } = openState({ shapes: SHAPES });
+function marking(shapes = SHAPES) {
+  const { state, committed } = openState({ shapes });
   const tool = new CircleTool(state);
   const hand = handOf(state, tool);
   const made = () => committed.flat().map(({ after }) => ({ uid: after.uid, mark: after.cap.mark }));
@@ -80,4 +81,40 @@ test("a tool that is taken up while a circle is dragged out leaves the circle wh
     made().map(({ mark }) => mark),
     [circle(600, 400, 30)],
   );
+});
+
+test("a circle on free ground is a cap of which all is seen; beside a neighbour, what that leaves", () => {
+  const { state, hand } = marking();
+  hand.stroke([
+    [600, 400],
+    [630, 400],
+  ]);
+  hand.stroke([
+    [232, 120],
+    [282, 120],
+  ]);
+  const [free, beside] = state.items.all.slice(-2).map(({ cap }) => areaOf(cap.visible));
+  assert.ok(Math.abs(free - Math.PI * 30 ** 2) < 40, String(free));
+  // Two circles of 50 and 52 whose centres are 80 apart share 950 px².
+  assert.ok(Math.abs(beside - (Math.PI * 50 ** 2 - 950)) < 60, String(beside));
+});
+
+test("a half-hidden cap that is selected gets the circle, wherever that was begun, as long as it goes round any of it", () => {
+  const sliver = polygonOfCircle({ kind: "circle", cx: 200, cy: 200, r: 50 }).map((value, i) =>
+    i % 2 === 0 ? Math.min(value, 160) : value,
+  );
+  const whole = circle(190, 200, 46);
+  const { state, hand, made } = marking([/** @type {any} */ ({ ...storedShape("sliver", capOf(sliver)), whole })]);
+  state.select(["sliver"]);
+  hand.stroke([
+    [215, 200],
+    [275, 200],
+  ]);
+  assert.deepEqual(made(), [{ uid: "sliver", mark: circle(215, 200, 60) }]);
+  hand.stroke([
+    [600, 600],
+    [630, 600],
+  ]);
+  assert.equal(made().length, 2);
+  assert.notEqual(made()[1].uid, "sliver");
 });

@@ -3,7 +3,8 @@ import test from "node:test";
 
 import { PolygonTool } from "../../../../static/editor/input/tools/polygon.js";
 import { handOf } from "../../support/hand.js";
-import { openState } from "../../support/state.js";
+import { capOf } from "../../support/caps.js";
+import { openState, storedShape } from "../../support/state.js";
 
 /** @typedef {import("../../../../static/editor/protocol.js").Point} Point */
 
@@ -18,7 +19,7 @@ const FIVE = [
 
 function drawing() {
   const { state, committed } = openState();
-  const tool = new PolygonTool(state, () => {});
+  const tool = new PolygonTool(state);
   const hand = handOf(state, tool);
   const rings = () => committed.flat().map(({ after }) => after.cap.visible[0]);
   return { state, tool, hand, rings };
@@ -155,4 +156,32 @@ test("points beside the photo are placed on its border", () => {
     [0, 20],
     [2000, 1500],
   ]);
+});
+
+test("a freehand outline keeps the points that the eye tells apart, and stays within a pixel of what was drawn", () => {
+  const { hand, rings } = drawing();
+  const fine = Array.from({ length: 361 }, (_, i) => (i * Math.PI) / 180).map((angle) => {
+    return /** @type {Point} */ ([300 + 60 * Math.cos(angle), 300 + 60 * Math.sin(angle)]);
+  });
+  hand.stroke(fine);
+  const [ring] = rings();
+  assert.ok(ring.length / 2 < 36, String(ring.length / 2));
+  for (let i = 0; i < ring.length; i += 2) {
+    const [x, y] = [ring[i] + ring[(i + 2) % ring.length], ring[i + 1] + ring[(i + 3) % ring.length]];
+    assert.ok(Math.abs(Math.hypot(x / 2 - 300, y / 2 - 300) - 60) < 1.1);
+  }
+});
+
+test("the part that is drawn of a cap becomes one of its parts", () => {
+  const shape = storedShape("u", capOf(FIVE.flat()));
+  const { state, committed } = openState({ shapes: [shape] });
+  const tool = new PolygonTool(state);
+  const hand = handOf(state, tool);
+  tool.partOf = "u";
+  for (const [x, y] of FIVE) hand.click([x + 200, y]);
+  tool.finish();
+  assert.deepEqual(committed.flat().map(({ after }) => [after.uid, after.cap.visible.length]), [["u", 2]]);
+  for (const [x, y] of FIVE) hand.click([x + 400, y]);
+  tool.finish();
+  assert.equal(state.items.all.length, 2);
 });

@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { areaOfRing, polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
-import { RimTool } from "../../../../static/editor/input/tools/rim.js";
+import { areaOf, shared } from "../../../../static/editor/geometry/regions.js";
+import { rimTool } from "../../../../static/editor/input/tools/rim.js";
 import { SelectTool } from "../../../../static/editor/input/tools/select.js";
 import { capOf, prediction } from "../../support/caps.js";
 import { handOf } from "../../support/hand.js";
@@ -36,7 +37,7 @@ function redrawing() {
   /** @type {string[]} */
   const said = [];
   const say = (/** @type {string} */ text) => void said.push(text);
-  const tool = new RimTool(state, say);
+  const tool = rimTool(state, say);
   const made = () => committed.flat().map(({ after }) => after);
   return { state, committed, said, say, tool, hand: handOf(state, tool), made };
 }
@@ -118,4 +119,44 @@ test("the new rim has as many points as the eye tells apart, not as many as the 
   });
   hand.stroke(way);
   assert.ok(made()[0].cap.visible[0].length / 2 < (3 / 4) * (ROUND.length / 2) + 16);
+});
+
+/** Beside the round one, 20 px away; what of it a stroke takes is counted in its own area. */
+const NEXT = polygonOfCircle({ kind: "circle", cx: 480, cy: 300, r: 80 });
+
+function besideANeighbour() {
+  const { state, committed } = openState({ shapes: [storedShape("round", capOf(ROUND)), storedShape("next", capOf(NEXT))] });
+  const hand = handOf(state, rimTool(state, () => {}));
+  const now = (/** @type {string} */ uid) => state.items.get(uid)?.cap.visible ?? [];
+  return { state, committed, hand, now };
+}
+
+/** From the rim of the round one out to x and back. @type {(x: number) => Point[]} */
+function bulge(x) {
+  const at = (/** @type {number} */ degrees) => (degrees * Math.PI) / 180;
+  const [top, bottom] = [at(-40), at(40)].map((a) => /** @type {Point} */ ([300 + 80 * Math.cos(a), 300 + 80 * Math.sin(a)]));
+  return [top, [x, top[1]], [x, 280], [x, 300], [x, 320], [x, bottom[1]], bottom];
+}
+
+test("what a stroke adds beyond a neighbour's rim the neighbour loses, in the same step", () => {
+  const { committed, hand, now } = besideANeighbour();
+  hand.stroke(bulge(430));
+  assert.equal(committed.length, 1);
+  assert.deepEqual(committed[0].map(({ after }) => after.uid), ["round", "next"]);
+  assert.ok(area(now("next")) < area([NEXT]) - 500);
+  assert.ok(areaOf(shared(now("round"), now("next"))) < 2);
+});
+
+test("a stroke along a neighbour's rim takes nothing of it and leaves no gap", () => {
+  const { committed, hand, now } = besideANeighbour();
+  const rim = Array.from({ length: 9 }, (_, i) => {
+    const angle = Math.PI - 0.4 + 0.1 * i;
+    return /** @type {Point} */ ([480 + 83 * Math.cos(angle), 300 - 83 * Math.sin(angle)]);
+  });
+  const [first, ...rest] = bulge(400);
+  hand.stroke([first, ...rim.toReversed(), rest[rest.length - 1]].sort((a, b) => a[1] - b[1]));
+  assert.deepEqual(committed[0].map(({ after }) => after.uid), ["round"]);
+  const strip = [[398, 270, 412, 270, 412, 330, 398, 330]];
+  const both = areaOf(shared(strip, now("round"))) + areaOf(shared(strip, now("next")));
+  assert.ok(Math.abs(areaOf(strip) - both) < 2, String(both));
 });

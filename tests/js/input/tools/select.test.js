@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { RimTool } from "../../../../static/editor/input/tools/rim.js";
+import { rimTool } from "../../../../static/editor/input/tools/rim.js";
 import { SelectTool } from "../../../../static/editor/input/tools/select.js";
 import { deleteSelected } from "../../../../static/editor/state/edits.js";
 import { capOf, prediction } from "../../support/caps.js";
@@ -19,7 +19,7 @@ function selecting(visible = HEXAGON, extra = {}) {
   /** @type {string[]} */
   const said = [];
   const say = (/** @type {string} */ text) => void said.push(text);
-  const tool = new SelectTool(state, { say, rim: new RimTool(state, say) });
+  const tool = new SelectTool(state, { say, rim: rimTool(state, say) });
   const hand = handOf(state, tool);
   state.select(["u"]);
   /** What the key does: the tool is asked first. */
@@ -130,3 +130,66 @@ test("undo while a vertex is dragged lets go of it; a tool that is taken up leav
   );
   assert.equal(tool.undo(), false);
 });
+
+const UNDER = [60, 60, 140, 60, 140, 150, 60, 150];
+
+test("a click at one place again selects what lies under, and goes round", () => {
+  const { state, hand } = selecting(HEXAGON, {
+    shapes: [storedShape("u", capOf(HEXAGON)), storedShape("under", capOf(UNDER))],
+  });
+  state.select([]);
+  const found = [0, 1, 2].map((i) => {
+    at(1000 * i, () => hand.click([100, 105]));
+    return state.selection.soleUid;
+  });
+  assert.deepEqual(found, ["under", "u", "under"]);
+  at(5000, () => hand.click([100, 105]));
+  at(5100, () => hand.click([100, 105]));
+  assert.equal(state.selection.soleUid, "u", "a double click means one cap");
+});
+
+test("a rectangle drawn to the right takes what it encloses, to the left what it touches", () => {
+  const { state, hand } = selecting(HEXAGON, {
+    shapes: [storedShape("u", capOf(HEXAGON)), storedShape("far", capOf(HEXAGON.map((value) => value + 400)))],
+  });
+  state.select([]);
+  hand.stroke(
+    [
+      [20, 20],
+      [60, 300],
+      [120, 300],
+    ],
+    { shift: true },
+  );
+  assert.deepEqual([...state.selection.uids], []);
+  hand.stroke(
+    [
+      [120, 300],
+      [60, 100],
+      [20, 20],
+    ],
+    { shift: true },
+  );
+  assert.deepEqual([...state.selection.uids], ["u"]);
+  hand.stroke(
+    [
+      [540, 540],
+      [550, 550],
+      [560, 560],
+      [530, 530],
+    ],
+    { shift: true },
+  );
+  assert.deepEqual([...state.selection.uids], ["u", "far"]);
+});
+
+/** Does something at a moment. @type {(ms: number, what: () => void) => void} */
+function at(ms, what) {
+  const { now } = performance;
+  performance.now = () => ms;
+  try {
+    what();
+  } finally {
+    performance.now = now;
+  }
+}

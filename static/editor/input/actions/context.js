@@ -1,0 +1,29 @@
+/** @typedef {import("../../protocol.js").Status} Status */
+/** @typedef {import("../../protocol.js").ToServer} ToServer */
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("../tools/tool.js").Tool} Tool */
+/** @typedef {import("../../state/finishing.js").Question} Question */
+
+/**
+ * @typedef {Object} Context  what commands work with
+ * @property {EditorState} state
+ * @property {() => Tool} tool
+ * @property {(name: string) => void} use  takes up a tool
+ * @property {() => import("../../protocol.js").Point} pointer  where it is, image pixels
+ * @property {(bounds: import("../../geometry/bounds.js").Bounds) => Promise<import("../../geometry/tightening.js").Patch>} patch  of the photo
+ * @property {() => void} drawPart  of the selected cap
+ * @property {() => void} finish  closes the outline that is half drawn
+ * @property {() => void} undo
+ * @property {() => void} redo
+ * @property {(status: Status) => void} setStatus  of the image on screen
+ * @property {(question: Question) => Promise<boolean>} ask
+ * @property {(message: ToServer) => boolean} send
+ * @property {(layer: string) => void} toggle  shows or hides a layer
+ * @property {() => void} switchFocus  from the photo to the panel, and back
+ * @property {() => void} help
+ * @property {(text: string) => void} say
+ */
+
+/** @typedef {(context: Context) => unknown} Action  false where there was nothing to do, and the key is the browser's */
+
+export {};
