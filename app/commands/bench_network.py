@@ -18,12 +18,12 @@ from fairyring.app.commands.rows import AsJson, print_rows
 if TYPE_CHECKING:
     from fairyring.app.bench.network.sets import LabelledPhotos
     from fairyring.model.photo import Pixels
-    from fairyring.model.predict.predictor import Detection
+    from fairyring.model.predict.seen import Detection
 
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
-    help="Measure a network, in five tables.",
+    help="Measure a network, in six tables.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
@@ -85,6 +85,35 @@ def centres(
         for row in tables.centre_rows(predicted, photos)
     ]
     print_rows("centres", rows, as_json=as_json)
+
+
+@commands.command()
+def clicks(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """The cap at one click in its middle, or in a box: IoU .5 and .75, of all and of missed caps, and time.
+
+    Example: `fairyring bench network clicks --real photos --count 2`
+    """
+    from fairyring.app.bench.network.clicks import click_rows
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.app.jobs.predicting import network_of
+    from fairyring.model.predict.shipped import SHIPPED
+
+    predictor = network_of(weights or SHIPPED, device=device).predictor
+    rows: list[dict[str, Any]] = []
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        for name in TEST_BEDS:
+            rows += click_rows(predictor, rendered(name, folder, count=count, progress=progress))
+    if real is not None:
+        rows += click_rows(predictor, checked(real))
+    print_rows("clicks", rows, as_json=as_json)
 
 
 @commands.command()

@@ -56,6 +56,11 @@ class _Candidates(NamedTuple):
     """(n,): photo pixels around the middle beyond which no cap of this level lies."""
 
 
+def least_cells(config: NetworkConfig, level: int) -> float:
+    """Cells of the mask that a mask of this level must have more of."""
+    return LEVEL_STRIDES[level] / config.reduction**2
+
+
 def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig) -> Instances:
     """The instances of input ``image`` of the batch."""
     found = _candidates(outputs, image, config, settings)
@@ -83,7 +88,7 @@ def _candidates(outputs: Outputs, image: int, config: NetworkConfig, settings: D
             _Candidates(
                 scores=scores,
                 kernels=outputs.kernels[level][image].permute(1, 2, 0)[held],
-                least=torch.full_like(scores, LEVEL_STRIDES[level] / config.reduction**2),
+                least=torch.full_like(scores, least_cells(config, level)),
                 middles=middles_of(held),
                 reach=torch.full_like(scores, reach_of(config, level)),
             )

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+import cv2
 import numpy as np
 import torch
 from msgspec import Struct, field, structs
 from numpy.typing import NDArray
 
-from fairyring.model.geometry.raster import Rle, rle_of_outline
-from fairyring.model.geometry.shapes import Outline
+from fairyring.model.geometry.boxes import Box
+from fairyring.model.geometry.raster import rle_of_outline
+from fairyring.model.geometry.shapes import Outline, points_of_part
 from fairyring.model.network.decode import DecodeConfig, Instances, decode
 from fairyring.model.network.fold import fold_batch_norms
-from fairyring.model.network.pr_solov2 import Outputs, PRSOLOv2
+from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.refine import refine
 from fairyring.model.photo import Pixels
+from fairyring.model.predict.added_and_taken import behind
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
 from fairyring.model.predict.overlaps import Window, distinct
 from fairyring.model.predict.passes import ONE_PASS, Pass, resized
 from fairyring.model.predict.pooling import Piece, pooled
+from fairyring.model.predict.prompts import window_at, window_in
+from fairyring.model.predict.seen import Detection, Seen, SeenPiece
 from fairyring.model.predict.smoothing import smoothed
 from fairyring.model.predict.tiles import Tile, tiles_of
 
@@ -40,41 +45,6 @@ class PredictConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     batch: int = 1
     """How many pieces of one size go through the network together."""
     passes: tuple[Pass, ...] = ONE_PASS
-
-
-@dataclass(frozen=True, kw_only=True)
-class Detection:
-    """One cap as the network sees it."""
-
-    score: float
-    """Probability that this is a cap and the outline its own, 0 to 1."""
-    outline: Outline
-    """Outline of what is visible, with sub-pixel edges."""
-    rle: Rle
-    """The pixels of the outline."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SeenPiece:
-    """A piece of a photo in one pass, and the network's outputs for it."""
-
-    seen_in: Pass
-    tile: Tile
-    outputs: Outputs
-    """For the batch that the piece was in."""
-    index: int
-    """Of the piece in that batch."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Seen:
-    """A photo that went through the network."""
-
-    width: int
-    height: int
-    scaled: tuple[int, int]
-    """Width and height of the scaled photo."""
-    pieces: list[SeenPiece]
 
 
 class Predictor:
@@ -168,9 +138,9 @@ class Predictor:
     def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
         """Pools the pieces and traces outlines; the second half of ``read``."""
         width, height = seen.scaled
-        photo_pixels = np.array([seen.width / width, seen.height / height])
+        scaling = _scaling(seen)
         found = [
-            (score, _scaled(outline, photo_pixels))
+            (score, _scaled(outline, 1 / scaling))
             for score, window in pooled(pieces, width=width, height=height)
             if (outline := outline_of_logits(smoothed(window.logits), corner=(window.x, window.y)))
         ]
@@ -183,6 +153,56 @@ class Predictor:
             )
             for score, (_, outline) in zip(scores.tolist(), found, strict=True)
         ]
+
+    @torch.inference_mode()
+    def at(
+        self,
+        seen: Seen,
+        points: Sequence[tuple[float, float]],
+        labels: Sequence[bool] = (True,),
+        *,
+        front: Sequence[Outline] = (),
+    ) -> Detection | None:
+        """The cap at clicks x, y in the photo that was seen; None where the network sees none.
+
+        ``labels``: whether a point is to be on it; the first must be. ``front``: outlines of caps of which
+        it may show no pixel; those that hold a point that is to be on it do not count.
+        """
+        places, wanted = np.array(points, np.float64).reshape(-1, 2), np.array(labels, np.bool_)
+        if len(places) != len(wanted) or not wanted[:1].all() or not len(places):
+            raise ValueError("Every point needs a label, and the first must be on the cap.")
+        scaling = _scaling(seen)
+        found = window_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest)
+        others = [o for o in front if not any(_holds(o, place) for place in places[wanted])]
+        return self._told(seen, found, others)
+
+    @torch.inference_mode()
+    def within(self, seen: Seen, box: Box, *, front: Sequence[Outline] = ()) -> Detection | None:
+        """The cap whose box is most like this one, left, top, right, bottom in the photo; else as ``at``."""
+        left, top, right, bottom = (np.array(box) * np.tile(_scaling(seen), 2)).tolist()
+        if not (left < right and top < bottom):
+            raise ValueError("A box is given by its left, top, right and bottom.")
+        found = window_in(self.network, seen, (left, top, right, bottom), finest=self.settings.finest)
+        return self._told(seen, found, front)
+
+    def _told(
+        self, seen: Seen, found: tuple[float, Window] | None, front: Sequence[Outline]
+    ) -> Detection | None:
+        """The one cap that was asked for, cut where others lie in front; None where nothing is left of it."""
+        if found is None:
+            return None
+        score, window = found
+        scaling = _scaling(seen)
+        window = behind(window, [_scaled(outline, scaling) for outline in front])
+        outline = outline_of_logits(smoothed(window.logits), corner=(window.x, window.y))
+        if not outline:
+            return None
+        outline = _scaled(outline, 1 / scaling)
+        return Detection(
+            score=float(calibrated(np.array(score), self.calibration)),
+            outline=outline,
+            rle=rle_of_outline(outline, height=seen.height, width=seen.width),
+        )
 
     def _padded(self, tile: Tile) -> tuple[int, int]:
         multiple = self.network.config.multiple
@@ -198,6 +218,17 @@ def _of_size(instances: Instances, nth: Pass, *, stride: int) -> Instances:
 def _chosen(instances: Instances, kept: Sequence[int]) -> Instances:
     chosen = torch.tensor(kept, dtype=torch.int64, device=instances.scores.device)
     return Instances(*(part[chosen] for part in instances))
+
+
+def _scaling(seen: Seen) -> NDArray[np.float64]:
+    """Pixels of the scaled photo for each pixel of the photo, along x and y."""
+    return np.array(seen.scaled) / (seen.width, seen.height)
+
+
+def _holds(outline: Outline, point: NDArray[np.float64]) -> bool:
+    x, y = point.tolist()
+    parts = (points_of_part(part).astype(np.float32) for part in outline)
+    return any(cv2.pointPolygonTest(part[:, None], (x, y), False) >= 0 for part in parts)
 
 
 def _scaled(outline: Outline, by: NDArray[np.float64]) -> Outline:

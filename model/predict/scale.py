@@ -10,7 +10,8 @@ from msgspec import structs
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.calibration import uncalibrated
 from fairyring.model.predict.passes import Pass, first_scale, resized, scale_for
-from fairyring.model.predict.predictor import Detection, Predictor, Seen, SeenPiece
+from fairyring.model.predict.predictor import Predictor
+from fairyring.model.predict.seen import Detection, Seen, SeenPiece
 from fairyring.model.predict.tiles import LONGEST, SHORTEST
 
 CERTAIN = 0.5

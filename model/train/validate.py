@@ -20,7 +20,8 @@ from fairyring.model.geometry.raster import Rle, rle_of_outline
 from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.predict.calibration import Calibration, calibrated, fit_calibration
-from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
+from fairyring.model.predict.predictor import PredictConfig, Predictor
+from fairyring.model.predict.seen import Detection
 from fairyring.model.progress import Progress, silent
 from fairyring.model.train.data import Example, read_rgb
 

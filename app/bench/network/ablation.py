@@ -17,7 +17,8 @@ from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
 from fairyring.model.network.weights import load_weights
 from fairyring.model.photo import Pixels
-from fairyring.model.predict.predictor import Detection, Predictor
+from fairyring.model.predict.predictor import Predictor
+from fairyring.model.predict.seen import Detection
 from fairyring.model.predict.shipped import RECIPE
 from fairyring.model.progress import Progress
 from fairyring.model.train.data import Example

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.contour.reconstruct import reconstruct
-from fairyring.model.predict.predictor import Detection, Predictor
+from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.scale import see_at_its_scale
+from fairyring.model.predict.seen import Detection
 from fairyring.storage.images import find_image
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run

@@ -11,7 +11,7 @@ from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centre_figures import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.photo import Pixels
-from fairyring.model.predict.predictor import Detection
+from fairyring.model.predict.seen import Detection
 from fairyring.model.progress import Progress, silent
 
 CERTAIN = 0.5

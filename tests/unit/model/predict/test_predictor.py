@@ -18,7 +18,8 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.predict import tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
 from fairyring.model.predict.passes import Pass, resized
-from fairyring.model.predict.predictor import Detection, PredictConfig, Predictor
+from fairyring.model.predict.predictor import PredictConfig, Predictor
+from fairyring.model.predict.seen import Detection
 from fairyring.model.train.data import read_rgb
 from tests.support.discs import DISCS, SIDE, photo_of
 from tests.support.small_networks import tiny
