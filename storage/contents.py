@@ -19,7 +19,7 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import annotation, image, prediction, run
 from fairyring.storage.open_predictions import offered
-from fairyring.storage.records import Annotation, ImageContents, Prediction, Run
+from fairyring.storage.records import IMPORT, Annotation, ImageContents, Prediction, Run
 
 
 def load_contents(connection: Connection, image_id: int) -> ImageContents:
@@ -38,7 +38,13 @@ def load_contents(connection: Connection, image_id: int) -> ImageContents:
         annotations=annotations,
         predictions=offered(photo, annotations, predictions),
         run=None if row.run is None else load_run(connection, row.run),
+        unchecked=_unchecked(connection, image_id),
     )
+
+
+def _unchecked(connection: Connection, image_id: int) -> list[str]:
+    untouched = (annotation.c.image == image_id, annotation.c.deleted == 0, annotation.c.edited_by == IMPORT)
+    return list(connection.execute(select(annotation.c.uid).where(*untouched)).scalars())
 
 
 def load_annotations(connection: Connection, image_id: int) -> list[Annotation]:

@@ -7,13 +7,17 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 from msgspec import Struct
-from sqlalchemy import ColumnElement, Connection, and_, func, or_, select, update
+from sqlalchemy import ColumnElement, Connection, and_, case, func, or_, select, update
 
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
-from fairyring.storage.db.schema import comparison, image
+from fairyring.storage.db.schema import comparison, image, prediction
 from fairyring.storage.records import Image, Status
 
-Sort = Literal["name", "added", "caps", "cdr"]
+Sort = Literal["name", "added", "caps", "cdr", "gain"]
+"""`gain`: where a look is worth most, image by image of every light and form in turn."""
+
+LAST = 10**9
+"""After every image that there is still something to do on."""
 
 
 class ImageFilter(Struct, frozen=True, kw_only=True):
@@ -71,16 +75,16 @@ class ListPosition(Struct, frozen=True, kw_only=True):
 def list_images(connection: Connection, which: ImageFilter, *, offset: int = 0, limit: int = 50) -> ImagePage:
     """A page of the list and the length of the whole."""
     # The page is cut from bare numbers: SQLite would otherwise join and read every row it skips.
-    page = _ordered(which, _condition(which)).offset(offset).limit(limit).subquery()
+    ids = list(connection.execute(_ordered(which, _condition(which)).offset(offset).limit(limit)).scalars())
     latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
-    rows: AnySelect = (
+    found: AnySelect = (
         select(image, comparison.c.cdr_mean, comparison.c.cdr_worst, comparison.c.worst)
         .select_from(image.outerjoin(comparison, latest))
-        .where(image.c.id.in_(select(page.c.id)))
-        .order_by(*_order(which))
+        .where(image.c.id.in_(ids))
     )
+    rows = {row.id: _row(row) for row in connection.execute(found)}
     total = connection.execute(select(func.count()).select_from(image).where(_condition(which)))
-    return ImagePage(rows=[_row(row) for row in connection.execute(rows)], total=total.scalar_one())
+    return ImagePage(rows=[rows[each] for each in ids], total=total.scalar_one())
 
 
 def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
@@ -163,12 +167,30 @@ def _order(which: ImageFilter) -> list[ColumnElement[Any]]:
         "added": image.c.id,
         "caps": image.c.caps,
         "cdr": comparison.c.cdr_worst,
+        "gain": _turn(),
     }
     column = columns[which.sort]
     directed = column.desc() if which.descending else column.asc()
     if which.sort == "cdr":
         return [directed.nulls_last(), image.c.sort_name, image.c.id]
+    if which.sort == "gain":
+        return [directed, _gain().desc(), image.c.sort_name, image.c.id]
     return [directed, image.c.sort_name, image.c.id]
+
+
+def _gain() -> ColumnElement[float]:
+    """How many wrong caps to expect, as scores are probabilities; none once an image is done."""
+    doubts = select(func.sum(1 - prediction.c.score)).where(
+        prediction.c.image == image.c.id, prediction.c.run == image.c.run
+    )
+    return case((image.c.status == "new", func.coalesce(doubts.scalar_subquery(), 0.0)), else_=-1.0)
+
+
+def _turn() -> ColumnElement[int]:
+    """First the image of most gain of every light and form, then the second of each, and so on."""
+    kind = (image.c.light, image.c.form, case((image.c.status == "new", 0), else_=1))
+    turn = func.row_number().over(partition_by=kind, order_by=(_gain().desc(), image.c.id))
+    return case((image.c.status == "new", turn), else_=turn + LAST)
 
 
 def _row(row: AnyRow) -> ImageRow:

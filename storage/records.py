@@ -18,6 +18,8 @@ Shape = Circle | Ellipse
 """A whole outline, which goes on where the cap is hidden."""
 Mark = Circle | Ellipse | Polygon
 """What a person placed. The browser places circles and polygons; ellipses come from imports."""
+IMPORT = "import"
+"""Who the journal names for what a file says, unless somebody stands by it."""
 Status = Literal["new", "annotated", "approved"]
 STATUSES: tuple[Status, ...] = get_args(Status)
 
@@ -180,3 +182,5 @@ class ImageContents(Struct, frozen=True, kw_only=True):
     predictions: list[Prediction]
     """Predictions of the latest run that saw it, without those that lie on annotations made otherwise."""
     run: Run | None
+    unchecked: list[str] = field(default_factory=list)
+    """Uids of annotations that a file said and no person has touched since."""

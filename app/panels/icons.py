@@ -19,6 +19,7 @@ _PATHS = {
     "redo": "M15 6l5 5-5 5M20 11H10a6 6 0 000 12",
     "fit": "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
     "accept_all": "M2 13l4 4 8-9M10 16l1 1 9-10",
+    "check": "M3 12l4 4 7-9M14 19h7M18 16l3 3-3 3",
     "accept": "M4 13l5 5L20 6",
     "delete": "M5 7h14M10 4h4M7 7l1 13h8l1-13M10 11v5M14 11v5",
     "done": "M4 5v14M8 12h11M14 7l5 5-5 5",

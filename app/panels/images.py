@@ -34,6 +34,7 @@ ORDERS = {
     "newest first": ImageFilter(sort="added", descending=True),
     "most caps first": ImageFilter(sort="caps", descending=True),
     "worst CDR first": ImageFilter(sort="cdr", descending=True),
+    "most to gain first": ImageFilter(sort="gain"),
 }
 
 

@@ -46,11 +46,17 @@ def _image_line(session: Session) -> list[Markup]:
     ]
 
 
+def _progress() -> Markup:
+    """How many caps are checked and how long the rest may take: the editor writes it."""
+    return element("span", data_fairyring_progress="", class_="fr-progress", title="Caps checked")
+
+
 def _person_line(session: Session) -> list[Markup]:
     run = session.run
     waiting = f"{session.waiting} on their way" if session.waiting else None
     return [
         run_badge(run) if run else element("span", "no predictions"),
+        _progress(),
         element(
             "span",
             waiting,

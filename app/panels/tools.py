@@ -8,7 +8,7 @@ from fairyring.app.panels.markup import Markup, element
 
 TOOLS = ("select", "polygon", "circle", "rim_points", "rim", "split", "pan")
 STATUSES = ("to_do", "annotated", "approved")
-COMMANDS = ("undo", "redo", "fit", "tighten", "merge", "accept_all", "done", "help")
+COMMANDS = ("undo", "redo", "fit", "tighten", "merge", "check", "accept_all", "done", "help")
 
 
 def build(session: Session) -> None:

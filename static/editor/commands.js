@@ -43,7 +43,8 @@ export default {
         { "name": "previous_cap", "keys": ["Shift+Tab"], "words": "Previous cap" },
         { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
         { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction" },
-        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions that are shown" },
+        { "name": "check", "keys": ["Space"], "words": "This one is right: on to the next worst", "label": "Right, next" },
+        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions from a score on" },
         { "name": "tighten", "keys": ["T"], "words": "Draw the selected outlines to the rim nearby", "label": "Tighten" },
         { "name": "merge", "keys": ["J"], "words": "Make one cap of the selected ones", "label": "Merge" },
         { "name": "copy", "keys": ["Ctrl+C"], "words": "Copy the selected caps" },
@@ -54,6 +55,7 @@ export default {
         { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
         { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree" },
         { "name": "ignored", "keys": ["I"], "words": "Ignored: counts neither way" },
+        { "name": "ignore_buds", "keys": ["Shift+I"], "words": "Ignore all caps smaller than 30 pixels" },
         { "name": "lower", "keys": ["[", "Alt+↓"], "words": "Lower in the overlap order" },
         { "name": "raise", "keys": ["]", "Alt+↑"], "words": "Higher in the overlap order" },
         { "name": "nudge_left", "keys": ["←"], "words": "Move by a quarter of a pixel" },
@@ -96,7 +98,7 @@ export default {
     { "name": "prediction", "key": "7", "words": "Predictions", "shown": true }
   ],
   "held": [
-    { "name": "pan", "key": "Space", "words": "Drag moves the view" },
+    { "name": "pan", "key": "Space", "words": "A drag moves the view" },
     { "name": "hide", "key": "H", "words": "Hide all shapes" },
     { "name": "broom", "key": "B", "words": "Broom: delete the caps that the pointer runs over" }
   ],

@@ -5,14 +5,13 @@
  */
 
 import { same } from "./geometry/same.js";
-import { toImage } from "./geometry/view.js";
-import { ACTIONS } from "./input/actions.js";
-import { bringFocusBack, switchFocus } from "./input/focus.js";
+import { bringFocusBack } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { Toolbox } from "./input/toolbox.js";
 import { travelIn } from "./input/travel.js";
 import { Opening } from "./opening.js";
+import { performer } from "./performing.js";
 import { expose } from "./probe.js";
 import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
@@ -26,16 +25,15 @@ import { Transport } from "./sync/transport.js";
 import { firstImage, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
-import { keyList } from "./ui/help.js";
 import { noticesIn } from "./ui/notices.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
-import { ask } from "./ui/question.js";
+import { showProgress } from "./ui/progress.js";
 import { Refusals } from "./ui/refusals.js";
 import { statusIn } from "./ui/status.js";
+import { Threshold } from "./ui/threshold.js";
 
 /** @typedef {import("./protocol.js").FromServer} FromServer */
 /** @typedef {import("./protocol.js").Layers} Layers */
-/** @typedef {import("./protocol.js").Status} Status */
 /** @typedef {import("./protocol.js").ToServer} ToServer */
 
 /** Close codes of the server. */
@@ -87,11 +85,13 @@ export class Editor {
         say: (text, level) => this.#say(text, level),
       }),
     });
+    const threshold = new Threshold(state);
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
       ...this.#toolbox.sketches,
       this.#conflicts.sketch,
       this.#refusals.sketch,
+      threshold.sketch,
     ]);
     this.#say = noticesIn(host);
     this.#refusals = new Refusals({
@@ -131,7 +131,18 @@ export class Editor {
       drawings: this.#drawings,
       say: this.#say,
     });
-    this.#perform = this.#performer(host, pointer, photos);
+    this.#perform = performer({
+      state,
+      host,
+      toolbox: this.#toolbox,
+      sync: this.#sync,
+      pointer,
+      photos,
+      send,
+      say: (text) => this.#say(text),
+      toggle: (layer) => this.#toggle(layer),
+      askScore: () => threshold.ask(),
+    });
     this.#listen(host, pointer);
     this.#progress();
     expose(host, {
@@ -146,36 +157,6 @@ export class Editor {
   /** @type {(token: string) => void} */
   offer(token) {
     this.#transport.offer(token);
-  }
-
-  /**
-   * Carries out commands by name; false for one that nobody knows, or that has nothing to do.
-   *
-   * @type {(host: HTMLElement, pointer: Pointer, photos: Photos) => (name: string) => boolean}
-   */
-  #performer(host, pointer, photos) {
-    const context = {
-      state: this.#state,
-      tool: () => this.#toolbox.tool,
-      use: (/** @type {string} */ name) => this.#toolbox.use(name),
-      pointer: () => toImage(this.#state.viewport.view, ...pointer.at),
-      patch: (/** @type {import("./geometry/bounds.js").Bounds} */ bounds) => photos.patch(bounds),
-      drawPart: () => this.#toolbox.drawPart(),
-      finish: () => this.#toolbox.finish(),
-      undo: () => this.#sync.undo(),
-      redo: () => this.#sync.redo(),
-      setStatus: (/** @type {Status} */ status) => this.#sync.say(status),
-      ask,
-      send: (/** @type {ToServer} */ message) => this.#send(message),
-      toggle: (/** @type {string} */ layer) => this.#toggle(layer),
-      switchFocus: () => switchFocus(host),
-      help: keyList(),
-      say: (/** @type {string} */ text) => this.#say(text),
-    };
-    return (name) => {
-      const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : null;
-      return action !== null && action(context) !== false;
-    };
   }
 
   /** @type {(host: HTMLElement, pointer: Pointer) => void} */
@@ -198,6 +179,7 @@ export class Editor {
       },
     });
     bringFocusBack(host);
+    showProgress(state);
     keepPlace(state, (image) => this.#open(image, null));
     state.signals.selection.listen(() => this.#tellSelection());
     state.signals.nudge.listen(() => this.#progress());

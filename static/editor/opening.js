@@ -55,7 +55,7 @@ export class Opening {
     const another = image.id !== state.image?.id;
     if (another) this.#leave();
     liveFit.forget();
-    sync.open(image, contents.annotations);
+    sync.open(image, contents.annotations, contents.unchecked);
     state.open(contents);
     if (select) state.select([select], { reveal: true });
     if (another) this.#arrive(image.id);

@@ -175,6 +175,7 @@
  * @property {Annotation[]} annotations
  * @property {Prediction[]} predictions
  * @property {Run | null} run
+ * @property {string[]} unchecked
  */
 
 /**

@@ -108,7 +108,8 @@ def test_a_selected_cap_tells_its_arcs_and_its_doubt_and_goes_on_telling_while_d
 def test_predictions_accepted_as_they_are_keep_outline_and_centre(tab: Tab, project: Path) -> None:
     said = {p["cap"]["prediction"]: (p["whole"], p["centre"]) for p in tab.state("predictions")}
     promote(tab)
-    tab.press("Escape", "Shift+A")
+    tab.press("Escape")
+    tab.accept_all()
     tab.wait_for("window.fairyring.state.predictions.length === 0")
     tab.saved()
     shown = {s["cap"]["prediction"]: (s["whole"], s["centre"]) for s in tab.state("shapes")}

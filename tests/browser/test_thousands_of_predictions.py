@@ -62,7 +62,7 @@ def test_two_thousand_acceptances_are_stored_once_and_undone_in_one_step(
     crowded: Server, open_tab: Callable[..., Tab], tmp_path: Path
 ) -> None:
     tab, project = open_tab(crowded), tmp_path / "beds"
-    tab.press("Shift+A")
+    tab.accept_all()
     tab.page.wait_for_function("() => window.fairyring.state.waiting < 1500", timeout=WITHIN_MS)
     tab.page.reload()
     tab.enter(crowded.url, name="Ada")

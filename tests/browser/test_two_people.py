@@ -97,7 +97,7 @@ def test_two_who_accept_everything_at_once_get_every_cap_once(
     for tab in (ada, bob):
         tab.page.bring_to_front()
         tab.wait_for("window.fairyring.state.connection !== 'online'")
-        tab.press("Shift+A")
+        tab.accept_all()
     served.start()
     for tab in (ada, bob):
         tab.page.bring_to_front()
@@ -167,7 +167,7 @@ def test_undo_goes_on_after_a_reload_and_the_history_brings_back_what_somebody_d
     served: Server, open_tab: Callable[..., Tab], squares: Path
 ) -> None:
     ada = open_tab(served, name="Ada")
-    ada.press("Shift+A")
+    ada.accept_all()
     ada.saved()
     ada.press("Control+a", "Delete")
     ada.saved()

@@ -12,7 +12,7 @@ const EDITOR = path.resolve(import.meta.dirname, "../../static/editor");
 const DRAWING = `
   main
   editor
-  opening  probe
+  opening  performing  probe
   ui  input
   sync  render
   state

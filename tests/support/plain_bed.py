@@ -36,11 +36,13 @@ def make_bed(
     caps: Sequence[Sequence[list[float]]],
     *,
     said: bool = False,
+    scores: Sequence[float] = (),
     discs: Sequence[tuple[int, int, int]] = (),
 ) -> Path:
     """A project with one photo for each list of outlines: annotations, or what a network ``said``.
 
-    ``discs`` are bright in every photo: centre and radius, pixels.
+    ``scores`` are those of each photo's predictions, .9 where they are not given; ``discs`` are bright in
+    every photo: centre and radius, pixels.
     """
     source, project = folder / "source", folder / "project"
     source.mkdir()
@@ -55,7 +57,7 @@ def make_bed(
         images.append({"id": number, "file_name": name, "width": SIZE[0], "height": SIZE[1]})
         annotations += [
             {"id": len(annotations) + k, "image_id": number, "category_id": 1, "segmentation": [outline]}
-            | ({"score": 0.9} if said else {})
+            | ({"score": scores[k - 1] if scores else 0.9} if said else {})
             for k, outline in enumerate(outlines, start=1)
         ]
     document = {"images": images, "annotations": annotations, "categories": [{"id": 1, "name": "mushroom"}]}

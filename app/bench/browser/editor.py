@@ -157,12 +157,12 @@ def _accepting(tab: Tab, ids: Ids, folder: Path, *, times: int) -> list[Row]:
     stopwatch.start(tab)
     drawn = []
     for _ in range(times):
-        tab.press("Shift+A")
+        tab.accept_all()
         drawn.append(stopwatch.drawn_as_saved(tab))
         tab.press("Control+z")
         tab.saved()
     on_disk = stopwatch.laps(tab, "accepted")[::2]
-    tab.press("Shift+A")
+    tab.accept_all()
     tab.saved()
     plain = inserted_at_once(folder / "plain-accepted.db", rows=caps, payload="0" * 1000)
     what = f"accept all {caps}: key to"

@@ -75,6 +75,10 @@ class Tab:
         for key in keys:
             self.page.keyboard.press(key)
 
+    def accept_all(self) -> None:
+        """Accepts all open predictions that are shown, whatever their score."""
+        self.press("Shift+A", "Home", "Enter")
+
     def select(self, point: Point) -> str:
         """Clicks a cap and returns its uid."""
         self.click(point)

@@ -6,7 +6,7 @@
  */
 
 import { joined } from "./bounds.js";
-import { boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./caps.js";
+import { axesOf, boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./caps.js";
 
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Cap} Cap */
@@ -24,16 +24,29 @@ import { boundsOfWhole, measure, movedCap, movedWhole, placedWhole } from "./cap
  * @property {Whole | null} whole
  * @property {Point | null} centre
  * @property {number | null} score  of a prediction; null for what people agreed on
+ * @property {boolean} checked  a person has looked at it and found it right, or put it right
+ * @property {number} doubt  how much it is worth a look, between 0 and 1
  */
 
 /** A cap that nobody has seen before. @type {(uid: string, cap: Cap) => Shape} */
 export function newShape(uid, cap) {
-  return withCap({ uid, cap, revision: 0, deleted: false, whole: null, centre: null, score: null }, cap);
+  return withCap({ uid, cap, revision: 0, deleted: false, whole: null, centre: null, score: null, checked: true, doubt: 0 }, cap);
 }
 
-/** @type {(annotation: Annotation) => Shape} */
-export function shapeOfAnnotation({ uid, cap, revision, deleted, whole, centre }) {
-  return { uid, cap, revision, deleted, whole, centre, score: null };
+/** @type {(annotation: Annotation, checked?: boolean) => Shape} */
+export function shapeOfAnnotation(annotation, checked = true) {
+  const { uid, cap, revision, deleted, whole, centre } = annotation;
+  return { uid, cap, revision, deleted, whole, centre, score: null, checked, doubt: doubtOf(annotation) };
+}
+
+/** A centre that may be so far off, of the diameter, is worth every look. */
+const WORST_CENTRE = 0.1;
+
+/** By how well the centre is known; a cap whose centre nobody knows is worth a look. @type {(annotation: Annotation) => number} */
+function doubtOf({ whole, centre_sd }) {
+  if (!whole || !centre_sd) return 1;
+  const { a, b } = axesOf(whole);
+  return Math.min(1, Math.hypot(...centre_sd) / (2 * Math.sqrt(a * b)) / WORST_CENTRE);
 }
 
 /** @type {(prediction: Prediction) => Shape} */
@@ -46,6 +59,8 @@ export function shapeOfPrediction({ id, visible, category, whole, centre, score 
     whole,
     centre,
     score,
+    checked: false,
+    doubt: 1 - score,
   };
 }
 

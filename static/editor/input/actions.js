@@ -6,12 +6,13 @@
 
 import DECLARED from "../commands.js";
 import { isPrediction } from "../geometry/shapes.js";
-import { acceptAll, acceptSelected, changeSelected, deleteMeant, nudge } from "../state/edits.js";
+import { acceptSelected, changeSelected, deleteMeant, nudge } from "../state/edits.js";
 import { cancel, cycle } from "./actions/choosing.js";
 import { copySelected, mergeSelected, pasteBefore, pasteCopied } from "./actions/copying.js";
 import { finishAs, finishImage, step } from "./actions/image.js";
 import { converted, flag, markSelected, reorder } from "./actions/marking.js";
 import { tightenSelected } from "./actions/tightening.js";
+import { acceptFrom, check, ignoreBuds } from "./actions/walking.js";
 import { commandOfLayer } from "./keys.js";
 
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
@@ -30,7 +31,9 @@ export const ACTIONS = {
   finish: ({ finish }) => finish(),
   cancel,
   accept: ({ state }) => acceptSelected(state),
-  accept_all: ({ state }) => acceptAll(state),
+  accept_all: (context) => void acceptFrom(context),
+  check,
+  ignore_buds: ignoreBuds,
   doubtful: ({ state }) => flag(state, "doubtful"),
   ignored: ({ state }) => flag(state, "ignored"),
   raise: ({ state }) => reorder(state, 1),

@@ -7,6 +7,9 @@
 import { isForThePage } from "./focus.js";
 import { commandOf, heldBy } from "./keys.js";
 
+/** A key that is let go sooner was not held. */
+const TAP_MS = 500;
+
 /**
  * @typedef {Object} Parts  of the editor that keys reach
  * @property {(command: string) => boolean} perform  false for a command that nobody knows
@@ -27,17 +30,29 @@ export function listenToKeys({ perform, state, pointer, sweep, pressed }) {
     state.signals.overlay.emit();
     return true;
   };
+  /** When the key was pressed that pans while it is held. @type {number | null} */
+  let tapped = null;
   const down = (/** @type {KeyboardEvent} */ event) => {
     if (isForThePage(event)) return false;
-    if (hold(heldBy(event), true)) return true;
+    const held = heldBy(event);
+    if (held === "pan" && !event.repeat) tapped = event.timeStamp;
+    if (hold(held, true)) return true;
     const command = commandOf(event);
     if (!command) return false;
     pressed(event.timeStamp);
     return perform(command);
   };
   // A key is let go wherever the focus has gone meanwhile, and whatever else is pressed.
-  const up = (/** @type {KeyboardEvent} */ { key, code, shiftKey }) =>
-    hold(heldBy({ key, code, shiftKey, ctrlKey: false, metaKey: false, altKey: false }), false);
+  const up = (/** @type {KeyboardEvent} */ event) => {
+    const { key, code, shiftKey, timeStamp } = event;
+    const held = heldBy({ key, code, shiftKey, ctrlKey: false, metaKey: false, altKey: false });
+    if (held === "pan" && tapped !== null && timeStamp - tapped < TAP_MS && !pointer.panned) {
+      const command = commandOf(event);
+      if (command) perform(command);
+    }
+    if (held === "pan") tapped = null;
+    return hold(held, false);
+  };
   listen("keydown", down);
   listen("keyup", up);
   window.addEventListener("blur", () => {

@@ -20,8 +20,9 @@ const RAW_MS = 4;
 export class Pointer {
   /** @type {Point} */
   at = [0, 0];
-  /** Space is held: the primary button pans. */
-  panKey = false;
+  #panKey = false;
+  /** The view has been moved since the key was pressed that pans while it is held. */
+  panned = false;
   #panning = false;
   #pressed = false;
   /** The tools that were in hand at the last presses; a double click is one tool's. @type {Tool[]} */
@@ -55,6 +56,16 @@ export class Pointer {
     host.addEventListener("contextmenu", (event) => event.preventDefault());
   }
 
+  /** A key is held by which the primary button pans. */
+  get panKey() {
+    return this.#panKey;
+  }
+
+  set panKey(held) {
+    if (held && !this.#panKey) this.panned = false;
+    this.#panKey = held;
+  }
+
   /** Whether a tool is at work. */
   get pressed() {
     return this.#pressed;
@@ -75,7 +86,7 @@ export class Pointer {
     this.#host.focus({ preventScroll: true });
     this.#host.setPointerCapture(event.pointerId);
     const press = this.#press(event);
-    if (event.button !== 0 || this.panKey) this.#panning = true;
+    if (event.button !== 0 || this.panKey) this.#panning = this.panned = true;
     else {
       this.#pressed = true;
       this.#state.beginGesture();

@@ -17,7 +17,7 @@ import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCent
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("./paths.js").Context} Context */
 /** @typedef {Record<string, boolean>} Visible */
-/** @typedef {"prediction" | "ignored" | "outline" | "selected"} Style */
+/** @typedef {"prediction" | "ignored" | "outline" | "checked" | "selected"} Style */
 
 const SMALL_PX = 7;
 const LABEL_PX = 30;
@@ -61,6 +61,7 @@ function groupsOf(shapes, view, region, selected, visible) {
   const groups = new Map([
     ["prediction", []],
     ["ignored", []],
+    ["checked", []],
     ["outline", []],
     ["selected", []],
   ]);
@@ -79,7 +80,8 @@ function groupsOf(shapes, view, region, selected, visible) {
 function styleOf(shape, selected) {
   if (selected.has(shape.uid)) return "selected";
   if (isPrediction(shape)) return "prediction";
-  return shape.cap.ignored ? "ignored" : "outline";
+  if (shape.cap.ignored) return "ignored";
+  return shape.checked ? "checked" : "outline";
 }
 
 /** @type {(context: Context, view: View, shapes: Shape[], how: {style: Style, visible: Visible, fine: boolean}) => void} */

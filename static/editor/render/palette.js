@@ -10,6 +10,7 @@ export const SHADE = "rgba(8, 12, 20, 0.85)";
 
 export const COLOURS = {
   outline: "#45c8ff",
+  checked: "#45c8ff",
   selected: "#ffffff",
   whole: "#ffb000",
   mark: "#ff6fb5",
@@ -34,6 +35,7 @@ export const ARCS = {
 
 export const FILLS = {
   outline: "rgba(69, 200, 255, 0.17)",
+  checked: "rgba(69, 200, 255, 0.05)",
   selected: "rgba(69, 200, 255, 0.12)",
   prediction: "rgba(201, 184, 255, 0.16)",
   ignored: "rgba(196, 202, 210, 0.6)",

@@ -21,8 +21,8 @@ import { newId } from "../ids.js";
  * @returns {Change}
  */
 export function changed(before, after) {
-  if (!isPrediction(before)) return { before, after };
-  return { before: null, after: { ...after, uid: newId(), revision: 0, score: null } };
+  if (!isPrediction(before)) return { before, after: { ...after, checked: true } };
+  return { before: null, after: { ...after, uid: newId(), revision: 0, score: null, checked: true } };
 }
 
 /**

@@ -65,14 +65,8 @@ export function acceptSelected(state) {
   accept(state, state.selected);
 }
 
-/** Makes annotations of all open predictions that are shown. @type {(state: EditorState) => void} */
-export function acceptAll(state) {
-  state.commitDrafts();
-  accept(state, state.visible);
-}
-
 /** @type {(state: EditorState, shapes: Shape[]) => void} */
-function accept(state, shapes) {
+export function accept(state, shapes) {
   state.commit(shapes.filter(isPrediction).map((shape) => changed(shape, shape)));
 }
 

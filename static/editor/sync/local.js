@@ -95,15 +95,17 @@ export class Local {
    *
    * @param {import("../protocol.js").Image} image
    * @param {Annotation[]} annotations
+   * @param {string[]} unchecked  the uids of those that no person has looked at
    */
-  open({ id: image, status }, annotations) {
+  open({ id: image, status }, annotations, unchecked) {
     this.image = image;
     const history = this.historyOf(image);
     history.forget(this.confirmed.refresh(image, annotations));
     if ((this.confirmed.statuses.get(image) ?? status) !== status) history.forgetStatus();
     this.confirmed.statuses.set(image, status);
+    const open = new Set(unchecked);
     const all = [...this.confirmed.deletedOf(image), ...annotations];
-    const shapes = new Map(all.map((known) => [known.uid, shapeOfAnnotation(known)]));
+    const shapes = new Map(all.map((known) => [known.uid, shapeOfAnnotation(known, !open.has(known.uid))]));
     this.#overlay(shapes);
     this.store.replace([...shapes.values()]);
   }
@@ -139,5 +141,7 @@ function overlay(shapes, edit) {
     whole: before?.whole ?? null,
     centre: before?.centre ?? null,
     score: null,
+    checked: true,
+    doubt: before?.doubt ?? 0,
   });
 }

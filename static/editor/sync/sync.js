@@ -247,9 +247,10 @@ export class Sync {
    *
    * @param {import("../protocol.js").Image} image
    * @param {Annotation[]} annotations
+   * @param {string[]} unchecked
    */
-  open(image, annotations) {
-    this.#local.open(image, annotations);
+  open(image, annotations, unchecked) {
+    this.#local.open(image, annotations, unchecked);
     const finished = this.#finished;
     if (!finished || (finished.next === null && image.id === finished.image)) return;
     if (finished.next === null) finished.next = image.id;

@@ -24,7 +24,7 @@ test("every command that is declared has an action, and every action is declared
   assert.deepEqual(Object.keys(ACTIONS).sort(), NAMES.sort());
 });
 
-test("no key runs two commands, and none that is held runs any", () => {
+test("no key runs two commands; the space bar, which is held to pan, runs one where it is let go at once", () => {
   const keys = [
     ...COMMANDS.flatMap((command) => command.keys),
     ...DECLARED.layers.map(({ key }) => key),
@@ -32,7 +32,7 @@ test("no key runs two commands, and none that is held runs any", () => {
   ].map((key) => key.toLowerCase());
   assert.deepEqual(
     keys.filter((key, i) => keys.indexOf(key) !== i),
-    [],
+    ["space"],
   );
 });
 

@@ -3,7 +3,7 @@ import { mock, test } from "node:test";
 
 import { changed } from "../../../static/editor/state/changes.js";
 import {
-  acceptAll,
+  accept,
   acceptSelected,
   changeSelected,
   deleteSelected,
@@ -147,7 +147,7 @@ test("a fresh copy of the image, after a break, leaves what is being nudged in h
   const { image } = state;
   assert.ok(image);
   state.store.replace([{ ...U, revision: 3 }]);
-  state.open({ image, annotations: [], predictions: [], run: null });
+  state.open({ image, annotations: [], predictions: [], run: null, unchecked: [] });
   state.commitDrafts();
   assert.deepEqual([committed.map(places), bases(committed)], [[[102]], [U.revision]]);
 });
@@ -179,8 +179,8 @@ test("accepting all takes up every open prediction and nothing twice", () => {
   const { state, committed } = openState({ shapes: [U], predictions: [prediction(1), prediction(2)] });
   state.select(["prediction:1"]);
   nudge(state, 1, 0);
-  acceptAll(state);
-  acceptAll(state);
+  accept(state, state.visible);
+  accept(state, state.visible);
   const taken = committed.flat().map(({ after }) => after.cap.prediction);
   assert.deepEqual(taken.sort(), [1, 2]);
 });
@@ -250,9 +250,9 @@ test("a fresh copy of the same image keeps the selection, and tells of it once",
   const told = mock.fn();
   state.signals.selection.listen(told);
   assert.ok(state.image);
-  state.open({ image: state.image, annotations: [], predictions: [], run: null });
+  state.open({ image: state.image, annotations: [], predictions: [], run: null, unchecked: [] });
   assert.deepEqual([[...state.selection.uids], told.mock.callCount()], [["u"], 1]);
-  state.open({ image: { ...state.image, id: 2 }, annotations: [], predictions: [], run: null });
+  state.open({ image: { ...state.image, id: 2 }, annotations: [], predictions: [], run: null, unchecked: [] });
   assert.deepEqual([[...state.selection.uids], told.mock.callCount()], [[], 2]);
 });
 
@@ -264,8 +264,8 @@ test("every image is found again as it was left", () => {
   viewport.resize({ width: 1000, height: 800 });
   viewport.zoomAt(300, 300, 4);
   const left = viewport.view;
-  state.open({ image: other, annotations: [], predictions: [], run: null });
+  state.open({ image: other, annotations: [], predictions: [], run: null, unchecked: [] });
   assert.notDeepEqual(viewport.view, left);
-  state.open({ image, annotations: [], predictions: [], run: null });
+  state.open({ image, annotations: [], predictions: [], run: null, unchecked: [] });
   assert.deepEqual(viewport.view, left);
 });

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { newCap } from "../../../static/editor/geometry/caps.js";
-import { acceptAll, acceptSelected, deleteSelected, nudge } from "../../../static/editor/state/edits.js";
+import { accept, acceptSelected, deleteSelected, nudge } from "../../../static/editor/state/edits.js";
 import { SQUARE, capOf, prediction, triangle } from "../support/caps.js";
 import { openState, storedShape } from "../support/state.js";
 
@@ -66,7 +66,7 @@ test("a nudge that was not committed yet is, when its cap is hidden", () => {
 test("hidden predictions are neither accepted, nor picked, nor found by a rectangle", () => {
   const { state, committed } = openState(CAPS);
   hide(state, "prediction");
-  acceptAll(state);
+  accept(state, state.visible);
   assert.deepEqual([committed, state.at([50, 50], 5)], [[], null]);
   assert.deepEqual(state.near({ x0: -1, y0: -1, x1: 101, y1: 101 }), []);
 });
@@ -76,7 +76,7 @@ test("as long as a key hides all caps nothing is done to any, and afterwards the
   state.select(["outlined", "prediction:1"]);
   state.layers.allHidden = true;
   deleteSelected(state);
-  acceptAll(state);
+  accept(state, state.visible);
   nudge(state, 1, 0);
   assert.deepEqual([committed, state.at([50, 50], 5)], [[], null]);
   state.layers.allHidden = false;

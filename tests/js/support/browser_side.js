@@ -107,7 +107,7 @@ class Tab {
 
   /** @type {(image: Image, annotations: Annotation[]) => void} */
   open(image, annotations) {
-    this.#sync.open(image, annotations);
+    this.#sync.open(image, annotations, []);
   }
 
   /** Ada says something of the image. @type {(status: Status) => void} */

@@ -37,7 +37,7 @@ export function openState({ shapes = [], predictions = [] } = {}) {
     state.store.apply(changes);
   });
   state.store.replace(shapes);
-  state.open({ image: IMAGE, annotations: [], predictions, run: null });
+  state.open({ image: IMAGE, annotations: [], predictions, run: null, unchecked: [] });
   return { state, committed };
 }
 

@@ -17,7 +17,9 @@ DECLARATION = TOP / "static" / "editor" / "commands.js"
 
 
 def test_a_button_says_what_it_does_and_by_which_key() -> None:
-    assert 'title="Accept all open predictions that are shown (Shift+A)"' in command_button("accept_all").html
+    assert (
+        'title="Accept all open predictions from a score on (Shift+A)"' in command_button("accept_all").html
+    )
     assert 'aria-label="Delete"' in command_button("delete").html
     assert 'title="Delete (Del)"' in command_button("delete").html
     assert "<span>Outline<kbd>W</kbd></span>" in tool_button("polygon").html

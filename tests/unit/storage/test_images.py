@@ -207,3 +207,40 @@ def test_figures_of_an_older_run_are_not_shown(many):
     many.write(lambda c: c.execute(update(schema.image).values(run=later)))
     with many.read() as connection:
         assert {row.cdr_worst for row in list_images(connection, ImageFilter(), limit=100).rows} == {None}
+
+
+def test_where_most_is_to_gain_comes_first_every_light_and_form_in_turn_and_what_is_done_last(project):
+    said = {
+        "a": ("top", "new", [0.9, 0.9]),
+        "b": ("top", "new", [0.3, 0.4, 0.5]),
+        "c": ("side", "new", [0.8]),
+        "d": ("side", "annotated", [0.3] * 9),
+        "e": ("top", "new", [0.6, 0.6]),
+        "f": ("side", "new", []),
+    }
+
+    def fill(connection):
+        run = add_run(connection, name="r", kind="network").id
+        category = connection.execute(insert(schema.category).values(name="mushroom", extra={}))
+        for name, (light, status, scores) in said.items():
+            values = {
+                "file_name": name,
+                "sort_name": name,
+                "path": name,
+                "width": 9,
+                "height": 9,
+                "sha256": "",
+            }
+            values |= {"light": light, "status": status, "extra": {}, "added_at": "2026", "run": run}
+            [number] = connection.execute(insert(schema.image).values(values)).inserted_primary_key
+            for k, score in enumerate(scores):
+                one = {"run": run, "image": number, "uid": f"{name}{k}", "visible": [], "score": score}
+                [kind] = category.inserted_primary_key
+                connection.execute(insert(schema.prediction).values(one | {"category": kind, "extra": {}}))
+
+    project.write(fill)
+    order = names(project, ImageFilter(sort="gain"))
+    assert order == ["b", "c", "e", "f", "a", "d"]
+    assert [
+        name for k in range(3) for name in names(project, ImageFilter(sort="gain"), offset=2 * k, limit=2)
+    ] == order

@@ -17,6 +17,7 @@
  * @property {() => void} redo
  * @property {(status: Status) => void} setStatus  of the image on screen
  * @property {(question: Question) => Promise<boolean>} ask
+ * @property {() => Promise<number | null>} askScore  from which score on predictions are meant; null for none
  * @property {(message: ToServer) => boolean} send
  * @property {(layer: string) => void} toggle  shows or hides a layer
  * @property {() => void} switchFocus  from the photo to the panel, and back

@@ -4,9 +4,11 @@
  * @module
  */
 
+import { isCoarse } from "../../geometry/points_needed.js";
 import { isPrediction } from "../../geometry/shapes.js";
 import { questionOf } from "../../state/finishing.js";
 
+/** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./context.js").Context} Context */
 
 const HALF_DRAWN = "An outline is still half drawn on this image: Enter closes it, W and Esc drop it.";
@@ -24,8 +26,8 @@ export async function finishImage(context) {
 }
 
 /**
- * Says something of the image. Predictions that nobody has looked at are asked about first: without them the
- * photo teaches that there are no caps where they are.
+ * Says something of the image. What nobody has looked at is asked about first: without its open predictions a
+ * photo teaches that there are no caps where they are, and without any cap that it is empty.
  *
  * @param {Context} context
  * @param {"annotated" | "approved"} status
@@ -39,10 +41,17 @@ export async function finishAs({ state, setStatus, ask, say }, status) {
     say(HALF_DRAWN);
     return false;
   }
-  const open = state.items.all.filter(isPrediction).length;
-  const counts = { name: image.file_name, open, caps: state.items.all.length - open };
-  if (open && !(await ask(questionOf(status, counts)))) return false;
+  const question = questionOf(status, countsOf(state, image.file_name));
+  if (question && !(await ask(question))) return false;
   if (state.image?.id !== image.id) return false;
   setStatus(status);
   return true;
+}
+
+/** @type {(state: EditorState, name: string) => import("../../state/finishing.js").Counts} */
+function countsOf({ items }, name) {
+  const caps = items.all.filter((shape) => !isPrediction(shape));
+  const open = items.all.length - caps.length;
+  const unchecked = caps.filter(({ checked, cap }) => !checked && !cap.ignored).length;
+  return { name, caps: caps.length, open, unchecked, coarse: caps.filter(isCoarse).length };
 }

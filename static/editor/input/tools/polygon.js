@@ -5,13 +5,15 @@
  * @module
  */
 
-import { hundredths, newCap } from "../../geometry/caps.js";
+import { areaOfRing, hundredths, newCap } from "../../geometry/caps.js";
+import { pointsNeeded } from "../../geometry/points_needed.js";
 import { newShape, withCap } from "../../geometry/shapes.js";
 import { comesRound, simplified } from "../../geometry/strokes.js";
 import { FEWEST } from "../../geometry/vertices.js";
 import { toScreen } from "../../geometry/view.js";
 import { newId } from "../../ids.js";
 import { drawHalfDrawn } from "../../render/half_drawn.js";
+import { writeCentred } from "../../render/paths.js";
 import { changed } from "../../state/changes.js";
 import { CLICK_PX, GRAB_PX, STRAYS_PX, apart } from "./tool.js";
 
@@ -192,6 +194,10 @@ export class PolygonTool {
     if (points.length === 0) return false;
     const next = this.#next ?? points[points.length - 1];
     drawHalfDrawn(context, view, { points, next, closing: this.#closing });
+    const needed = pointsNeeded(areaOfRing(points.flat()));
+    const [x, y] = toScreen(view, ...next);
+    if (points.length >= FEWEST && points.length < needed)
+      writeCentred(context, `${points.length} of ${needed} points`, x, y + 14);
     return true;
   };
 

@@ -1,0 +1,48 @@
+import { toImage } from "./geometry/view.js";
+import { ACTIONS } from "./input/actions.js";
+import { switchFocus } from "./input/focus.js";
+import { keyList } from "./ui/help.js";
+import { ask } from "./ui/question.js";
+
+/** @typedef {import("./input/actions/context.js").Context} Context */
+/** @typedef {import("./input/pointer.js").Pointer} Pointer */
+/** @typedef {import("./input/toolbox.js").Toolbox} Toolbox */
+/** @typedef {import("./render/photos.js").Photos} Photos */
+/** @typedef {import("./sync/sync.js").Sync} Sync */
+
+/**
+ * @typedef {Object} Own
+ * @property {HTMLElement} host
+ * @property {Toolbox} toolbox
+ * @property {Sync} sync
+ * @property {Pointer} pointer
+ * @property {Photos} photos
+ */
+
+/**
+ * Carries out commands by name; false for one that nobody knows, or that has nothing to do.
+ *
+ * @type {(parts: Own & Pick<Context, "state" | "send" | "say" | "toggle" | "askScore">) => (name: string) => boolean}
+ */
+export function performer({ host, toolbox, sync, pointer, photos, ...passed }) {
+  /** @type {Context} */
+  const context = {
+    ...passed,
+    tool: () => toolbox.tool,
+    use: (name) => toolbox.use(name),
+    pointer: () => toImage(passed.state.viewport.view, ...pointer.at),
+    patch: (bounds) => photos.patch(bounds),
+    drawPart: () => toolbox.drawPart(),
+    finish: () => toolbox.finish(),
+    undo: () => sync.undo(),
+    redo: () => sync.redo(),
+    setStatus: (status) => sync.say(status),
+    ask,
+    switchFocus: () => switchFocus(host),
+    help: keyList(),
+  };
+  return (name) => {
+    const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : null;
+    return action !== null && action(context) !== false;
+  };
+}
