@@ -67,8 +67,8 @@ class Refit(FromEditor, frozen=True, tag="refit"):
 class Select(FromEditor, frozen=True, tag="select"):
     """Says what is selected, for the inspector."""
 
-    annotation: str | None = None
-    prediction: int | None = None
+    annotations: list[str] = field(default_factory=list)
+    predictions: list[int] = field(default_factory=list)
 
 
 class Recall(FromEditor, frozen=True, tag="recall"):

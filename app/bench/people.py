@@ -110,7 +110,7 @@ async def _correct(
     for prediction in chance.sample(share, len(share)):
         if time.perf_counter() > ends:
             return
-        await tab.send(Select(prediction=prediction.id))
+        await tab.send(Select(predictions=[prediction.id]))
         await asyncio.sleep(chance.uniform(*LOOK_S))
         await _drag(tab, prediction, waited, seconds=chance.uniform(*DRAG_S))
 

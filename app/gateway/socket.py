@@ -170,8 +170,8 @@ async def _carry_out(workspace: Workspace, session: Session, refits: Refits, mes
             await open_image(workspace, session, image, select=select)
         case Step(by=by):
             await step(workspace, session, by)
-        case Select(annotation=annotation, prediction=prediction):
-            session.selection = Selection(annotation, prediction)
+        case Select(annotations=annotations, predictions=predictions):
+            session.selection = Selection(tuple(annotations), tuple(predictions))
             session.refresh("cap")
         case Recall():
             await recall(workspace, session, message)

@@ -52,7 +52,7 @@ def _find(workspace: Workspace, connection: Connection, image_id: int, which: Im
 def _show(session: Session, found: _Found, *, select: str | None) -> None:
     session.show(found.contents)
     session.position, session.count = found.position.position, found.position.count
-    session.selection = Selection(annotation=select)
+    session.selection = Selection(annotations=(select,) if select else ())
     session.send(
         Show(
             contents=found.contents,

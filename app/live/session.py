@@ -32,8 +32,8 @@ MOST_UNSENT = 2000
 class Selection:
     """What the editor has selected, for the inspector."""
 
-    annotation: str | None = None
-    prediction: int | None = None
+    annotations: tuple[str, ...] = ()
+    predictions: tuple[int, ...] = ()
 
 
 @dataclass(eq=False, kw_only=True)

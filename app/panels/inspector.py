@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from statistics import fmean
 
 from sqlalchemy import Connection
 
@@ -17,7 +18,7 @@ from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.status import run_badge
 from fairyring.model.evaluate.centres import Pair
-from fairyring.model.geometry.shapes import Circle, Polygon
+from fairyring.model.geometry.shapes import Circle, Polygon, diameter_of_shape
 from fairyring.storage.contents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
@@ -51,13 +52,18 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
     caps, selection = session.caps, session.selection
     if caps is None:
         return EMPTY
-    annotation = caps.annotations.get(selection.annotation or "")
-    if annotation is not None and not annotation.deleted:
-        return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
-    for prediction in caps.predictions:
-        if prediction.id == selection.prediction:
+    found = [caps.annotations[uid] for uid in selection.annotations if uid in caps.annotations]
+    annotations = [annotation for annotation in found if not annotation.deleted]
+    wanted = set(selection.predictions)
+    predictions = [prediction for prediction in caps.predictions if prediction.id in wanted]
+    match annotations, predictions:
+        case [annotation], []:
+            return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
+        case [], [prediction]:
             return prediction_facts(prediction, session.run)
-    return summary(caps)
+        case [], []:
+            return summary(caps)
+    return several_facts(annotations, predictions)
 
 
 async def _background(
@@ -134,6 +140,23 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
     return _inspector(
         element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete")
     )
+
+
+def several_facts(annotations: Sequence[Annotation], predictions: Sequence[Prediction]) -> Markup:
+    """The inspector's view of several caps: how many of what, their means, and what can be done to all."""
+    wholes = [each.whole for each in (*annotations, *predictions) if each.whole is not None]
+    diameters = [diameter_of_shape(whole) for whole in wholes]
+    facts: Facts = [
+        ("Annotations", f"{len(annotations)}, {sum(a.cap.mark is not None for a in annotations)} marked"),
+        ("Predictions", str(len(predictions))),
+    ]
+    if diameters:
+        facts.append(("Diameter", f"{fmean(diameters):.1f} px on average"))
+    if predictions:
+        facts.append(("Score", f"{fmean(p.score for p in predictions):.3f} on average"))
+    commands = ("accept",) if predictions and not annotations else ()
+    title = element("strong", f"{len(annotations) + len(predictions)} selected")
+    return _inspector(title, facts=facts, commands=(*commands, "merge", "doubtful", "ignored", "delete"))
 
 
 def summary(caps: ImageCaps) -> Markup:

@@ -5,6 +5,7 @@
  */
 
 import { same } from "./geometry/same.js";
+import { isPrediction } from "./geometry/shapes.js";
 import { bringFocusBack } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
@@ -217,12 +218,11 @@ export class Editor {
   }
 
   #tellSelection() {
-    const { sole } = this.#state;
-    const predicted = sole?.score != null;
+    const { selected } = this.#state;
     this.#transport.send({
       type: "select",
-      annotation: sole && !predicted ? sole.uid : null,
-      prediction: predicted ? (sole?.cap.prediction ?? null) : null,
+      annotations: selected.flatMap((shape) => (isPrediction(shape) ? [] : shape.uid)),
+      predictions: selected.flatMap((shape) => (isPrediction(shape) ? (shape.cap.prediction ?? []) : [])),
     });
   }
 

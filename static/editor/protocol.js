@@ -217,8 +217,8 @@
 /**
  * @typedef {Object} Select
  * @property {"select"} type
- * @property {string | null} annotation
- * @property {number | null} prediction
+ * @property {string[]} annotations
+ * @property {number[]} predictions
  */
 
 /**

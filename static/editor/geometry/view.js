@@ -102,6 +102,17 @@ export function revealing(view, bounds, size) {
   return panned(view, shift(left, width, size.width, margin), shift(top, height, size.height, margin));
 }
 
+/** How near to the middle of the window something is that the eye need not look for, of its width and height. */
+const MIDDLE = 0.3;
+
+/** Brings the middle of `bounds` to that of the window, unless it is about there. @type {(view: View, bounds: Bounds, size: Size) => View} */
+export function centred(view, bounds, size) {
+  const [x, y] = toScreen(view, (bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2);
+  const [dx, dy] = [size.width / 2 - x, size.height / 2 - y];
+  const near = Math.abs(dx) <= MIDDLE * size.width && Math.abs(dy) <= MIDDLE * size.height;
+  return near ? view : panned(view, dx, dy);
+}
+
 /** @type {(bounds: Bounds, size: Size, scale: number) => View} */
 function centredOn({ x0, y0, x1, y1 }, { width, height }, scale) {
   return { scale, x: (width - (x0 + x1) * scale) / 2, y: (height - (y0 + y1) * scale) / 2 };

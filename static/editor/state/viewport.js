@@ -6,6 +6,7 @@
 
 import { contains, overlap } from "../geometry/bounds.js";
 import {
+  centred,
   closeUp,
   onDevicePixels,
   panned,
@@ -130,6 +131,12 @@ export class Viewport {
     const view = close ? closeUp(this.view, bounds, this.size) : revealing(this.view, bounds, this.size);
     // Where nothing moves, a whole photo stays whole.
     if (view.scale !== scale || view.x !== x || view.y !== y) this.#show(view);
+  }
+
+  /** Brings a part of the photo to where one looks. @type {(bounds: Bounds) => void} */
+  centre(bounds) {
+    const view = centred(revealing(this.view, bounds, this.size), bounds, this.size);
+    if (view.scale !== this.view.scale || view.x !== this.view.x || view.y !== this.view.y) this.#show(view);
   }
 
   /** Whether anything of a part of the photo is on screen. @type {(bounds: Bounds) => boolean} */

@@ -5,7 +5,7 @@
  */
 
 import { changed } from "./changes.js";
-import { isPrediction } from "../geometry/shapes.js";
+import { boundsOf, isPrediction } from "../geometry/shapes.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./editor_state.js").EditorState} EditorState */
@@ -32,7 +32,9 @@ export function checkAndGoOn(state) {
   const right = openOnes(state.selected);
   if (right.length) state.commit(right.map((shape) => changed(shape, shape)));
   const next = worstOpen(state);
-  state.select(next ? [next.uid] : [], { reveal: true });
+  state.select(next ? [next.uid] : []);
+  const bounds = next && boundsOf(next);
+  if (bounds) state.viewport.centre(bounds);
   return next !== null;
 }
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { closeUp, revealing, toImage, viewOf, zoomed } from "../../../static/editor/geometry/view.js";
+import { centred, closeUp, revealing, toImage, viewOf, zoomed } from "../../../static/editor/geometry/view.js";
 import { chances } from "../support/chances.js";
 
 const SIZE = { width: 1016, height: 850 };
@@ -67,4 +67,10 @@ test("a close-up of a large cap fills the window, and zooms out as far as that t
   const large = { x0: 0, y0: 0, x1: 400, y1: 400 };
   const { scale } = closeUp({ scale: 30, x: 0, y: 0 }, large, SIZE);
   assert.equal(scale, (SIZE.height - 80) / 800);
+});
+
+test("what lies at the edge of the window is brought to its middle, what lies about there stays", () => {
+  const edge = centred(AT_HOME, { x0: 990, y0: 800, x1: 1010, y1: 820 }, SIZE);
+  assert.deepEqual(edge, { scale: 1, x: -492, y: -385 });
+  assert.deepEqual(centred(AT_HOME, { x0: 490, y0: 300, x1: 510, y1: 320 }, SIZE), AT_HOME);
 });

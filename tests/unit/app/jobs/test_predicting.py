@@ -160,7 +160,7 @@ def test_what_people_have_labelled_is_not_offered_again_but_still_compared(
         tab.panel.set("Predict this image", True)
         assert tab.expect(Predicted).predictions == []
         tab.expect(Notice)
-        tab.send(Select(annotation=accepted[0].annotation))
+        tab.send(Select(annotations=[accepted[0].annotation]))
         until(lambda: f'title="{accepted[0].annotation}"' in tab.panel.html, "the inspector")
         assert "none matches this cap" not in tab.panel.html
     with project.read() as connection:

@@ -37,7 +37,7 @@ def test_a_released_drag_is_fitted_once(port: int, looks: list[str]) -> None:
         assert looks != []
         looks.clear()
         (outcome,) = tab.edit(Edit(id="e", annotation="cap-1", image=2, base=0, cap=dragged)).outcomes
-        tab.send(Select(annotation="cap-1"))
+        tab.send(Select(annotations=["cap-1"]))
         until(lambda: live.note in tab.panel.html, "the inspector")
         assert (outcome.annotation.whole, outcome.annotation.centre) == (live.fit.whole, live.fit.centre)
         assert looks == []

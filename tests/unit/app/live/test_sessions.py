@@ -182,7 +182,7 @@ def test_an_image_that_is_gone_is_a_notice_and_nothing_else_changes(port: int) -
         notice = tab.expect(Notice)
         assert notice.level == "error"
         assert "404" in notice.text
-        tab.send(Select(annotation="cap-1"))
+        tab.send(Select(annotations=["cap-1"]))
         tab.send(Step(by=1))
         assert tab.expect(Show).contents.image.id == 3
 

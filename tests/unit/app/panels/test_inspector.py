@@ -1,0 +1,34 @@
+"""What the inspector says of what is selected."""
+
+from __future__ import annotations
+
+from fairyring.app.panels.inspector import several_facts
+from fairyring.model.geometry.shapes import Circle, Ellipse
+from fairyring.storage.records import Annotation, Cap, Prediction
+
+MARKED = Annotation(
+    uid="a",
+    image=1,
+    revision=1,
+    cap=Cap(visible=[], mark=Circle(0.0, 0.0, 15.0)),
+    whole=Circle(0.0, 0.0, 15.0),
+)
+SAID = [
+    Prediction(id=k, run=1, image=1, visible=[], score=score, whole=Ellipse(0.0, 0.0, 40.0, 10.0, 0.0))
+    for k, score in ((1, 0.5), (2, 0.9))
+]
+
+
+def test_of_several_caps_it_says_how_many_of_what_they_are_and_their_means() -> None:
+    html = several_facts([MARKED], SAID).html
+    assert "3 selected" in html
+    assert "1, 1 marked" in html
+    assert "36.7 px on average" in html, "30, 40 and 40"
+    assert "0.700 on average" in html
+
+
+def test_it_offers_what_can_be_done_to_all_of_them() -> None:
+    assert 'data-fairyring-command="accept"' in several_facts([], SAID).html
+    assert 'data-fairyring-command="accept"' not in several_facts([MARKED], SAID).html
+    for command in ("merge", "doubtful", "ignored", "delete"):
+        assert f'data-fairyring-command="{command}"' in several_facts([MARKED], SAID).html
