@@ -19,6 +19,7 @@ from fairyring.app.commands import (
     network,
     project,
     review,
+    runs,
     serve,
     synth,
 )
@@ -50,6 +51,7 @@ app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
 app.command("review")(review.review)
 app.add_typer(evaluate.commands, name="evaluate")
+app.add_typer(runs.commands, name="runs")
 app.add_typer(benchmarks.commands, name="bench")
 
 

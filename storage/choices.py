@@ -63,6 +63,6 @@ class Only(StrEnum):
     """Those with annotations, or whose status says that they are done."""
     approved = "approved"
     predicted = "predicted"
-    """Those of the latest run, with its predictions."""
+    """Those that a run saw, each with what the latest of its runs said."""
     all = "all"
     """Every image: with its annotations, else with its predictions."""

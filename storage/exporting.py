@@ -2,40 +2,48 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
-import cv2
 import msgspec
 from msgspec import Struct
-from sqlalchemy import Connection, func, select
+from sqlalchemy import Connection, select
 
-from fairyring.model.photo import probe, read
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.choices import Only
 from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
-from fairyring.storage.errors import StoreError
+from fairyring.storage.exported_photos import copy_photos
+from fairyring.storage.formats.coco_results import result_entry, write_results
 from fairyring.storage.formats.coco_writing import (
     annotation_entry,
     category_entry,
     image_entry,
+    info_entry,
     prediction_entry,
     write_document,
 )
-from fairyring.storage.originals import PhotoChangedError
-from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Image, Prediction, is_complete
+from fairyring.storage.provenance import origins_of, standing_of
+from fairyring.storage.records import Annotation, Image, Prediction, Run, is_complete
+from fairyring.storage.runs import images_seen_by, latest_runs_of, predictions_by, require_run
 from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
-JPEG_QUALITY = 97
 BESIDE_ANNOTATIONS = 1 << 31
 """Added to the numbers of predictions that are exported beside annotations, which have lower ones."""
+
+
+class Wanted(Struct, frozen=True, kw_only=True):
+    """What an export is to hold."""
+
+    only: Only = Only.annotated
+    run: Run | None = None
+    """The run whose predictions are written; None for the latest of each image."""
+    with_ignored: bool = False
+    """Keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``."""
 
 
 class ExportReport(Struct, frozen=True, kw_only=True):
@@ -48,6 +56,8 @@ class ExportReport(Struct, frozen=True, kw_only=True):
     """Of how many of the images nobody has said that these are all their caps."""
     left_out: list[str]
     """Sentences about images whose file is not the photo that was imported."""
+    runs: dict[str, int]
+    """The runs whose predictions were written, by name, each with how many images they are of."""
 
 
 def export_coco(
@@ -55,57 +65,83 @@ def export_coco(
     out: Path,
     *,
     only: Only = Only.annotated,
+    run: str | None = None,
     with_ignored: bool = False,
+    license_: str | None = None,
+    results: BinaryIO | None = None,
     progress: Progress = silent,
 ) -> ExportReport:
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
 
-    The state is that of the moment at which the export began. Photos are copied as they are; one that is
-    turned by EXIF is written upright, as its coordinates are. An image whose file is no longer the photo that
-    was imported is left out, as its labels would go out over another photo.
+    The state is that of the moment at which the export began; of one state every export is the same, byte for
+    byte. Photos are copied as they are; one that is turned by EXIF is written upright, as its coordinates
+    are. An image whose file is no longer the photo that was imported is left out, as its labels would go out
+    over another photo.
 
     Args:
         project: whence.
         out: a new or an empty folder.
         only: which images.
+        run: name or number of the run whose predictions are written, in place of each image's latest.
         with_ignored: keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``.
+        license_: of the whole data set.
+        results: an open file for the predictions as COCO's list of results.
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 
     Raises:
-        StoreError: ``out`` holds something or cannot be written, a photo is gone, or no image is left.
+        StoreError: ``out`` holds something or cannot be written, a photo is gone, no image is left, or there
+            is no such run.
     """
     with project.read() as connection, made_whole(out) as folder:
-        images, left_out = _copy_photos(project, _images(connection, only), folder / "images", progress)
+        wanted = Wanted(
+            only=only, run=None if run is None else require_run(connection, run), with_ignored=with_ignored
+        )
+        hashes, left_out = copy_photos(project, _images(connection, wanted), folder / "images", progress)
+        images = [image for image in _images(connection, wanted) if image.id in hashes]
+        runs = _runs(connection, images, wanted)
         categories = connection.execute(_CATEGORIES).all()
         licenses: list[dict[str, Any]] = []
+        listed = [
+            image_entry(image, sha256=hashes[image.id], partial=_is_partial(image, only), licenses=licenses)
+            for image in images
+        ]
         head = {
-            "info": _info(connection, project, only),
+            "info": info_entry(project.name, standing_of(connection), licenses, license_=license_)
+            | _exported(only, runs),
             "licenses": licenses,
             "categories": [category_entry(row.name, row.extra, number=row.id) for row in categories],
-            "images": [
-                image_entry(image, partial=_is_partial(image, only), licenses=licenses) for image in images
-            ],
+            "images": listed,
         }
-        caps = _caps(connection, images, only=only, with_ignored=with_ignored, progress=progress)
         numbers = {row.name: row.id for row in categories}
+        caps = _caps(connection, images, wanted, progress=progress)
         with (folder / "instances.json").open("wb") as file:
-            count = write_document(file, head, _entries(caps, numbers))
-    partial = sum(_is_partial(image, only) for image in images)
-    return ExportReport(images=len(images), annotations=count, partial=partial, left_out=left_out)
+            count = write_document(file, head, _entries(connection, caps, numbers))
+        if results is not None:
+            caps = _caps(connection, images, wanted, progress=progress)
+            write_results(results, _results(caps, numbers))
+    return ExportReport(
+        images=len(images),
+        annotations=count,
+        partial=sum(_is_partial(image, only) for image in images),
+        left_out=left_out,
+        runs={each.name: seen for each, seen in runs},
+    )
 
 
 _CATEGORIES = select(schema.category).order_by(schema.category.c.id)
 
 
-def _images(connection: Connection, only: Only) -> list[Image]:
+def _images(connection: Connection, wanted: Wanted) -> list[Image]:
+    if wanted.run is not None:
+        return images_seen_by(connection, wanted.run.id)
     image = schema.image
-    wanted = {
+    which = {
         "annotated": (image.c.status != "new") | (image.c.caps + image.c.ignored > 0),
         "approved": image.c.status == "approved",
-        "predicted": image.c.run == select(func.max(schema.run.c.id)).scalar_subquery(),
+        "predicted": image.c.run.is_not(None),
         "all": image.c.id > 0,
-    }[only]
-    statement = select(image).where(wanted).order_by(image.c.sort_name, image.c.id)
+    }[wanted.only]
+    statement = select(image).where(which).order_by(image.c.sort_name, image.c.id)
     return [image_of(row) for row in connection.execute(statement)]
 
 
@@ -114,22 +150,35 @@ def _is_partial(image: Image, only: Only) -> bool:
     return only == "predicted" or not is_complete(image.status)
 
 
+def _runs(connection: Connection, images: list[Image], wanted: Wanted) -> list[tuple[Run, int]]:
+    """The runs whose predictions are written, each with how many of the images they are of."""
+    if wanted.run is not None:
+        return [(wanted.run, len(images))]
+    if wanted.only not in ("predicted", "all"):
+        return []
+    said = [image.id for image in images if wanted.only == "predicted" or not is_complete(image.status)]
+    return latest_runs_of(connection, said)
+
+
 def _caps(
-    connection: Connection, images: list[Image], *, only: Only, with_ignored: bool, progress: Progress
+    connection: Connection, images: list[Image], wanted: Wanted, *, progress: Progress
 ) -> Iterator[tuple[Image, int, Cap]]:
     """The images, and of each the caps with their numbers in the file."""
-    load = _loader(connection, only)
+    load = _loader(connection, wanted)
     for done, image in enumerate(images):
         progress(done, len(images), "Writing labels")
         for number, cap in load(image):
-            if with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
+            if wanted.with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
                 yield image, number, cap
 
 
-def _loader(connection: Connection, only: Only) -> Callable[[Image], list[tuple[int, Any]]]:
-    if only == "predicted":
+def _loader(connection: Connection, wanted: Wanted) -> Callable[[Image], list[tuple[int, Any]]]:
+    run = wanted.run
+    if run is not None:
+        return lambda image: [(cap.id, cap) for cap in predictions_by(connection, run.id, image.id)]
+    if wanted.only == "predicted":
         return lambda image: [(cap.id, cap) for cap in load_predictions(connection, image.id)]
-    if only != "all":
+    if wanted.only != "all":
         return lambda image: load_numbered_annotations(connection, image.id)
 
     def load(image: Image) -> list[tuple[int, Any]]:
@@ -142,50 +191,34 @@ def _loader(connection: Connection, only: Only) -> Callable[[Image], list[tuple[
     return load
 
 
-def _entries(caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+def _entries(
+    connection: Connection, caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]
+) -> Iterator[dict[str, Any]]:
+    of_image, origins = 0, {}
     for image, number, cap in caps:
         size = image.width, image.height
         if isinstance(cap, Annotation):
+            if of_image != image.id:
+                of_image, origins = image.id, origins_of(connection, image.id)
             category = categories[cap.cap.category]
-            yield annotation_entry(cap, number=number, size=size, category=category)
+            yield annotation_entry(cap, number=number, size=size, category=category, origin=origins[cap.uid])
         else:
             category = categories[cap.category]
             yield prediction_entry(cap, number=number, size=size, category=category)
 
 
-def _info(connection: Connection, project: Project, only: Only) -> dict[str, Any]:
-    info: dict[str, Any] = {"description": project.name, "exported": only}
-    run = latest_run(connection) if only in ("predicted", "all") else None
-    return info | ({"run": msgspec.to_builtins(run)} if run else {})
+def _results(caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+    for image, _, cap in caps:
+        if isinstance(cap, Prediction):
+            size = image.width, image.height
+            yield result_entry(cap, size=size, category=categories[cap.category])
 
 
-def _copy_photos(
-    project: Project, images: list[Image], folder: Path, progress: Progress
-) -> tuple[list[Image], list[str]]:
-    """The images whose photos were copied, and a sentence about each of the others."""
-    folder.mkdir()
-    copied: list[Image] = []
-    left_out: list[str] = []
-    for done, image in enumerate(images):
-        progress(done, len(images), "Copying photos")
-        try:
-            target = folder / image.file_name
-            target.parent.mkdir(parents=True, exist_ok=True)
-            _copy(project.originals.path_of(image), target)
-        except PhotoChangedError as error:
-            left_out.append(str(error))
-        else:
-            copied.append(image)
-    if left_out and not copied:
-        raise StoreError(f"Nothing was exported: {left_out[0]}")
-    return copied, left_out
-
-
-def _copy(source: Path, target: Path) -> None:
-    if probe(source).orientation == 1:
-        shutil.copyfile(source, target)
-        return
-    # OpenCV goes by the ending, and does not know all of JPEG's.
-    suffix = target.suffix.lower().replace(".jfif", ".jpg") or ".png"
-    _, encoded = cv2.imencode(suffix, read(source), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
-    target.write_bytes(encoded.tobytes())
+def _exported(only: Only, runs: list[tuple[Run, int]]) -> dict[str, Any]:
+    """What was exported, for ``info``."""
+    listed = [msgspec.to_builtins(run) | {"images": seen} for run, seen in runs]
+    return (
+        {"exported": only}
+        | ({"runs": listed} if runs else {})
+        | ({"run": listed[0]} if len(runs) == 1 else {})
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain, count
 from typing import Any, Literal
 from uuid import uuid4
 
@@ -53,7 +54,7 @@ def add_run(
 
     Args:
         connection: within ``Project.write``.
-        name: as people read it.
+        name: as people read it; where another run has it already, a number is put behind.
         kind: whence the predictions come.
         weights: SHA-256 of the weights.
         settings: whatever else decides the result.
@@ -65,7 +66,7 @@ def add_run(
         if known is not None:
             return run_of(known)
     values = {
-        "name": name,
+        "name": _free_name(connection, name),
         "kind": kind,
         "made_at": now(),
         "weights": weights,
@@ -137,6 +138,15 @@ def latest_run(connection: Connection) -> Run | None:
     """The run made last."""
     row = latest_run_row(connection)
     return None if row is None else run_of(row)
+
+
+def _free_name(connection: Connection, name: str) -> str:
+    """The name, or the first of ``name (2)``, ``name (3)`` … that no run has."""
+    taken = set(
+        connection.execute(select(run.c.name).where(run.c.name.startswith(name, autoescape=True))).scalars()
+    )
+    names = chain([name], (f"{name} ({nth})" for nth in count(2)))
+    return next(each for each in names if each not in taken)
 
 
 def _values(

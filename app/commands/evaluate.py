@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -104,15 +104,16 @@ def centres(
         _warn_of_strange_ids(each)
     difference = difference_of(*runs) if len(runs) == 2 else None
     if as_json:
-        typer.echo(msgspec.json.encode(figures[0] if difference is None else _of_two(figures, difference)))
+        typer.echo(msgspec.json.encode(figures[0] if difference is None else of_two(figures, difference)))
         return
     for file, each in zip(files, figures, strict=False):
-        _print_centres(str(file) if difference else "centres", each)
+        print_centres(str(file) if difference else "centres", each)
     if difference is not None:
-        _print_difference(difference)
+        print_difference(difference)
 
 
-def _of_two(figures: list[dict[str, Any]], difference: dict[str, Any]) -> dict[str, Any]:
+def of_two(figures: Sequence[dict[str, Any]], difference: dict[str, Any]) -> dict[str, Any]:
+    """The figures of two runs and of their difference, as they are printed as JSON."""
     return {"first": figures[0], "second": figures[1], "difference": difference}
 
 
@@ -193,7 +194,8 @@ def _print_masks(figures: dict[str, Any]) -> None:
         )
 
 
-def _print_centres(title: str, figures: dict[str, Any]) -> None:
+def print_centres(title: str, figures: dict[str, Any]) -> None:
+    """Prints the figures of one run as tables."""
     from rich.table import Table
 
     table = Table("", "mean", "95 %", "median", "p95", title=title)
@@ -225,7 +227,8 @@ def _print_groups(groups: dict[str, dict[str, Any]]) -> None:
     console_of_tables().print(table)
 
 
-def _print_difference(difference: dict[str, Any]) -> None:
+def print_difference(difference: dict[str, Any]) -> None:
+    """Prints how much further off the second of two runs is."""
     from rich.table import Table
 
     table = Table("", "mean", "95 %", title="second minus first, caps that both found")

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson
+from fairyring.model.errors import FileError
+from fairyring.model.whole_files import written_whole
 from fairyring.storage.choices import ExportFormat, Only
 from fairyring.storage.folder import IMAGES, WEIGHTS
 
@@ -39,8 +43,22 @@ def export(
     out: Annotated[Path, typer.Argument(metavar="OUT", help="A new or empty folder.")],
     *,
     format_: Annotated[ExportFormat, typer.Option("--format", help="Format to write.")] = ExportFormat.coco,
-    only: Annotated[Only, typer.Option(help="Which images.")] = Only.annotated,
+    only: Annotated[
+        Only | None, typer.Option(help="Which images; else annotated.", show_default=False)
+    ] = None,
+    run: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Predictions of this run (fairyring runs list).")
+    ] = None,
     with_ignored: Annotated[bool, typer.Option(help="Keep ignored caps, as iscrowd 1.")] = False,
+    results: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.json", help="Write predictions as a list of COCO results (RLE, scores) as well."
+        ),
+    ] = None,
+    license_: Annotated[
+        str | None, typer.Option("--license", metavar="NAME", help="Licence of the data; else the photos'.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Write a data set others can load, without images whose photo is no longer the one imported.
@@ -52,12 +70,30 @@ def export(
     from fairyring.storage.project import open_project
 
     assert format_ is ExportFormat.coco
+    if run is not None and only not in (None, Only.predicted):
+        raise typer.BadParameter(f"--run writes predictions; --only {only} does not.")
+    which = only or (Only.annotated if run is None else Only.predicted)
+    if results is not None and which is not Only.predicted:
+        raise typer.BadParameter("--results are predictions; give --only predicted or --run.")
     with open_project(folder) as project, shown_on_stderr() as progress:
         fill_in(project, progress=progress)
-        report = export_coco(project, out, only=only, with_ignored=with_ignored, progress=progress)
+        with _written(results) as file:
+            report = export_coco(
+                project,
+                out,
+                only=which,
+                run=run,
+                with_ignored=with_ignored,
+                license_=license_,
+                results=file,
+                progress=progress,
+            )
     for sentence in report.left_out:
         typer.echo(sentence, err=True)
-    if report.partial and only is not Only.predicted:
+    if report.runs:
+        said = ", ".join(f"{name} ({_counted(seen, 'image')})" for name, seen in report.runs.items())
+        typer.echo(f"Predictions of {said}.", err=True)
+    if report.partial and which is not Only.predicted:
         typer.echo(
             f'Of {report.partial} images nobody has said that all their caps are labelled: "partial": true '
             "marks them, which other programs do not know. --only approved leaves them out.",
@@ -70,11 +106,29 @@ def export(
             "annotations": report.annotations,
             "partial": report.partial,
             "left_out": left_out,
+            "runs": report.runs,
         }
         typer.echo(json.dumps(figures))
     else:
         others = f"; {left_out} images left out" if left_out else ""
         typer.echo(f"{report.images} images, {report.annotations} annotations in {out}{others}")
+
+
+@contextmanager
+def _written(path: Path | None) -> Iterator[BinaryIO | None]:
+    """A file to write, whole or not at all; None where none is asked for. Raises FileError."""
+    if path is None:
+        yield None
+        return
+    try:
+        with written_whole(path) as fresh, fresh.open("wb") as file:
+            yield file
+    except OSError as error:
+        raise FileError(f"{path} cannot be written: {error.strerror or error}.") from error
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def backup(

@@ -73,10 +73,17 @@ def truth_to_pair(truth: Document, pairing: CapPairing) -> Truth:
 def evaluated(predicted: Document, truth: Truth, pairing: CapPairing) -> Evaluated:
     """``evaluate_centres`` for a truth that was read already, and what the figures are of."""
     paged = pages_of(predicted, truth)
+    found = evaluated_pages(paged.pages, pairing)
+    found.figures["pairing"] |= to_builtins(paged.pairing)
+    return found
+
+
+def evaluated_pages(pages: list[Page], pairing: CapPairing) -> Evaluated:
+    """The same for images in memory, whose predictions below the least score are taken out."""
     caps: list[Measured] = []
     images: list[dict[str, Any]] = []
     apart = 0
-    for place, page in enumerate(paged.pages):
+    for place, page in enumerate(pages):
         compared = _compared(page, pairing)
         caps.extend(measured_caps(place, page, compared))
         errors = compared.errors
@@ -86,14 +93,14 @@ def evaluated(predicted: Document, truth: Truth, pairing: CapPairing) -> Evaluat
     figures = figures_of_caps(caps) | {
         "extra": sum(cap.truth is None for cap in caps),
         "images": images,
-        "pairing": to_builtins(paged.pairing) | {"apart": apart if pairing.by == "id" else 0},
+        "pairing": {"apart": apart if pairing.by == "id" else 0},
         "groups": {
             kind: {value: figures_of_caps(some) for value, some in groups.items()}
-            for kind, groups in grouped(caps, paged.pages).items()
+            for kind, groups in grouped(caps, pages).items()
         },
         "caps": [cap.row for cap in caps],
     }
-    return Evaluated(pages=paged.pages, caps=caps, figures=figures)
+    return Evaluated(pages=pages, caps=caps, figures=figures)
 
 
 def grouped(caps: Sequence[Measured], pages: Sequence[Page]) -> dict[str, dict[str, list[Measured]]]:

@@ -47,7 +47,8 @@ from fairyring.storage.formats.fractions import require_pixels
 from fairyring.storage.records import STATUSES, Cap, Status
 
 IMAGE_KEYS = {
-    *("id", "file_name", "width", "height", "light", "form", "split", "license", "status", "partial"),
+    *("id", "file_name", "width", "height", "sha256", "light", "form", "split"),
+    *("license", "status", "partial"),
 }
 CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from importlib.metadata import version
 from typing import Any, BinaryIO
 
 import msgspec
@@ -19,17 +20,25 @@ from fairyring.model.coco.writing import (
 from fairyring.model.geometry.clipping import clipped_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, polygon_of_shape
 from fairyring.storage.formats.foreign_keys import without_geometry
+from fairyring.storage.provenance import Standing
 from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
 
 KEYPOINTS = ["centre"]
+NOT_SAID: dict[str, Any] = {}
 
 
 def annotation_entry(
-    annotation: Annotation, *, number: int, size: tuple[int, int], category: int
+    annotation: Annotation,
+    *,
+    number: int,
+    size: tuple[int, int],
+    category: int,
+    origin: dict[str, Any] = NOT_SAID,
 ) -> dict[str, Any]:
     """The entry of an annotation.
 
-    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height.
+    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height, and ``origin``
+    says who made it. What an imported file says of that stands until the cap is edited.
     """
     cap = annotation.cap
     marked = cap.mark is not None
@@ -47,10 +56,10 @@ def annotation_entry(
     entry |= {} if cap.order is None else {"order": cap.order}
     # As long as nobody has touched the cap since it was imported, what its file said of it still holds.
     untouched = annotation.revision == 1
-    extra = annotation.extra if untouched else without_geometry(annotation.extra)
+    extra = annotation.extra if untouched else without_geometry(annotation.extra) | origin
     if "amodal_segmentation" in extra:
         entry["amodal_segmentation"] = extra["amodal_segmentation"]
-    return {"id": number} | extra | entry | {"uid": annotation.uid}
+    return {"id": number} | origin | extra | entry | {"uid": annotation.uid}
 
 
 def prediction_entry(
@@ -64,13 +73,17 @@ def prediction_entry(
     return {"id": number} | prediction.extra | entry
 
 
-def image_entry(image: Image, *, partial: bool, licenses: list[dict[str, Any]]) -> dict[str, Any]:
+def image_entry(
+    image: Image, *, sha256: str, partial: bool, licenses: list[dict[str, Any]]
+) -> dict[str, Any]:
     """The entry of an image; its licence is added to ``licenses`` and named by number.
 
-    ``partial``: nobody has said that the annotations are all its caps.
+    ``sha256`` is that of its file in the export. ``partial``: nobody has said that the annotations are all
+    its caps.
     """
     entry: dict[str, Any] = {"id": image.id, "file_name": image.file_name}
     entry |= {"width": image.width, "height": image.height, "status": image.status}
+    entry |= {"sha256": sha256}
     entry |= {"partial": True} if partial else {}
     known = {"light": image.light, "form": image.form, "split": image.split}
     extra = dict(image.extra)
@@ -78,6 +91,23 @@ def image_entry(image: Image, *, partial: bool, licenses: list[dict[str, Any]]) 
     if isinstance(license_, dict):
         extra["license"] = _number_of_license(license_, licenses)
     return extra | entry | {key: value for key, value in known.items() if value is not None}
+
+
+def info_entry(
+    name: str, standing: Standing, licenses: list[dict[str, Any]], *, license_: str | None
+) -> dict[str, Any]:
+    """COCO's ``info``: the same for every export of a project as it stands.
+
+    ``version`` counts the edits, and the date is that of the last change. Where nobody says which licence the
+    data have, it is that of their photos.
+    """
+    named = [license_] if license_ else sorted({str(each["name"]) for each in licenses if each.get("name")})
+    info: dict[str, Any] = {"description": name, "version": str(standing.edits)}
+    info |= {"contributor": ", ".join(standing.people), "contributors": standing.people}
+    if standing.changed_at is not None:
+        info |= {"date_created": standing.changed_at, "year": int(standing.changed_at[:4])}
+    info |= {"license": ", ".join(named)} if named else {}
+    return info | {"written_by": f"Fairyring {version('fairyring')}"}
 
 
 def category_entry(name: str, extra: dict[str, Any], *, number: int) -> dict[str, Any]:

@@ -30,8 +30,8 @@ DRAWINGS = {
         importing  exporting  backup
         taken_out  relinking
         journal  formats  migrations  image_history
-        statuses
-        project  images  contents  predictions  comparisons  derived  ledger
+        statuses  exported_photos
+        project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
         change_sets
         db  cap_validity  open_predictions  originals
         serving  whole_folders

@@ -1,0 +1,54 @@
+"""Copies photos into an export: as they are, or upright where EXIF turns them."""
+
+from __future__ import annotations
+
+import shutil
+from hashlib import sha256
+from pathlib import Path
+
+import cv2
+
+from fairyring.model.photo import probe, read
+from fairyring.model.progress import Progress
+from fairyring.storage.errors import StoreError
+from fairyring.storage.originals import PhotoChangedError
+from fairyring.storage.project import Project
+from fairyring.storage.records import Image
+
+JPEG_QUALITY = 97
+
+
+def copy_photos(
+    project: Project, images: list[Image], folder: Path, progress: Progress
+) -> tuple[dict[int, str], list[str]]:
+    """The SHA-256 of each copied photo as it was written, by its image; and a sentence about each other one.
+
+    Raises StoreError where there are some, and none could be copied.
+    """
+    folder.mkdir()
+    copied: dict[int, str] = {}
+    left_out: list[str] = []
+    for done, image in enumerate(images):
+        progress(done, len(images), "Copying photos")
+        try:
+            target = folder / image.file_name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            copied[image.id] = _copy(project.originals.path_of(image), target, image.sha256)
+        except PhotoChangedError as error:
+            left_out.append(str(error))
+    if left_out and not copied:
+        raise StoreError(f"Nothing was exported: {left_out[0]}")
+    return copied, left_out
+
+
+def _copy(source: Path, target: Path, digest: str) -> str:
+    """Copies a photo of this SHA-256, and returns that of the copy."""
+    if probe(source).orientation == 1:
+        shutil.copyfile(source, target)
+        return digest
+    # OpenCV goes by the ending, and does not know all of JPEG's.
+    suffix = target.suffix.lower().replace(".jfif", ".jpg") or ".png"
+    _, encoded = cv2.imencode(suffix, read(source), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    upright = encoded.tobytes()
+    target.write_bytes(upright)
+    return sha256(upright).hexdigest()

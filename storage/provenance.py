@@ -1,0 +1,63 @@
+"""Where labels come from: who edited a cap, when, from which prediction; and who worked on the project."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msgspec import Struct
+from sqlalchemy import Connection, func, select
+
+from fairyring.storage.db.schema import annotation, edit, prediction, run, status_change
+
+IMPORT = "import"
+"""Whom the journal names for imports, unless somebody says who did it."""
+
+
+class Standing(Struct, frozen=True, kw_only=True):
+    """How far a project is."""
+
+    edits: int
+    """Number of the last edit of a cap; grows with every one."""
+    changed_at: str | None
+    """When caps, statuses or runs were last changed, UTC, ISO 8601; None where nothing ever was."""
+    people: list[str]
+    """Who edited caps or statuses, imports aside, by name."""
+
+
+def standing_of(connection: Connection) -> Standing:
+    """How far the project is: the same as long as nobody changes it."""
+    times = [
+        connection.execute(select(func.max(table.c.made_at))).scalar_one()
+        for table in (edit, status_change, run)
+    ]
+    people = {
+        name
+        for table in (edit, status_change)
+        for name in connection.execute(select(table.c.user).distinct()).scalars()
+    }
+    return Standing(
+        edits=connection.execute(select(func.max(edit.c.sequence))).scalar_one() or 0,
+        changed_at=max((time for time in times if time), default=None),
+        people=sorted(people - {IMPORT}),
+    )
+
+
+def origins_of(connection: Connection, image_id: int) -> dict[str, dict[str, Any]]:
+    """Of the live annotations of an image, by uid: revision, by whom, when, and from which prediction."""
+    columns = (
+        *(annotation.c[name] for name in ("uid", "revision", "edited_by", "edited_at", "prediction")),
+        *(run.c.name, prediction.c.score),
+    )
+    statement = (
+        select(*columns)
+        .outerjoin(prediction, prediction.c.id == annotation.c.prediction)
+        .outerjoin(run, run.c.id == prediction.c.run)
+        .where(annotation.c.image == image_id, annotation.c.deleted == 0)
+    )
+    origins: dict[str, dict[str, Any]] = {}
+    for row in connection.execute(statement):
+        origin = {name: getattr(row, name) for name in ("revision", "edited_by", "edited_at")}
+        if row.prediction is not None:
+            origin["prediction"] = {"id": row.prediction, "run": row.name, "score": row.score}
+        origins[row.uid] = origin
+    return origins
