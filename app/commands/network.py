@@ -65,6 +65,10 @@ def train(
     lenient: Annotated[
         bool, typer.Option(help="Leave out labels that cannot be used instead of stopping.")
     ] = False,
+    categories: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="Which categories are caps (repeat for more); else mushroom."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Train the network on a project's approved images (else its annotated ones), or on COCO files.
@@ -88,6 +92,7 @@ def train(
                 val=val or (),
                 resume=resume,
                 lenient=lenient,
+                categories=categories or (),
             )
             result = train_as_asked(
                 sources,

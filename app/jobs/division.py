@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from fairyring.app.jobs.training_labels import Labels
+from fairyring.app.jobs.training_labels import Labels, LeftOut
 from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
 
@@ -18,6 +18,8 @@ VALIDATION, TEST = ("val", "valid", "validation"), ("test",)
 TESTED = "kept for tests"
 UNFIT_TO_CHECK = "partly labelled and meant for validation"
 NOT_ASKED = "meant for validation, for which others are given"
+COPIED = "copies of photos that are validated on or kept for tests"
+LEARNT, CHECKED = "learnt", "validated"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,8 +29,12 @@ class Division:
     learnt: list[Example]
     checked: list[Example]
     """Photos that are validated on."""
-    left_out: Counter[str]
-    """Numbers of photos that play no part, by the reason."""
+    left_out: list[LeftOut]
+    """Photos that play no part."""
+    used: list[dict[str, Any]]
+    """What ``labels.json`` says of the others, with what they are used for."""
+    others: Counter[str]
+    """Numbers of labels that are of no cap, by their category."""
 
     def figures(self) -> dict[str, Any]:
         """The numbers of photos and caps."""
@@ -41,8 +47,13 @@ class Division:
             "partial": len(partial),
             "caps_of_partial": _caps_in(partial),
             "validated": len(self.checked),
-            "left_out": dict(self.left_out),
+            "left_out": dict(Counter(each.why for each in self.left_out)),
+            "other_categories": dict(self.others),
         }
+
+    def record(self) -> list[dict[str, Any]]:
+        """Every photo for ``labels.json``: what it is used for, or why it is not."""
+        return [*self.used, *(each.entry | {"left_out": each.why} for each in self.left_out)]
 
     def __str__(self) -> str:
         """The figures in a sentence."""
@@ -56,10 +67,12 @@ class Division:
                 f"{_photos(said['partial'], 'partly labelled')} ({said['caps_of_partial']} caps; "
                 "nothing is learnt outside them)"
             )
-        left = ", ".join(f"{count} {reason}" for reason, count in sorted(self.left_out.items()))
+        left = ", ".join(f"{count} {reason}" for reason, count in sorted(said["left_out"].items()))
+        others = ", ".join(f"{count} {name}" for name, count in sorted(self.others.items()))
         return (
             f"Learns from {' and '.join(parts)}; validates on {said['validated']}."
             + (f" Left out: {left}." if left else "")
+            + (f" Labels that are of no cap: {others}." if others else "")
         )  # fmt: skip
 
 
@@ -68,40 +81,71 @@ def divided(labels: Labels, validation: Labels | None, *, seed: int) -> Division
 
     Validated is ``validation`` where given, else what ``split`` names so, else a seeded three tenths of four
     complete photos and more. Only complete photos can be validated on: caps that nobody labelled yet would
-    count as mistakes.
+    count as mistakes. Photos of one file, by its SHA-256, are never on two sides: what is validated on or
+    kept for tests teaches nothing, under whatever name.
     """
-    left_out = labels.left_out.copy()
-    learnt: list[Example] = []
-    checked: list[Example] = []
-    for example, split in zip(labels.examples, labels.splits, strict=True):
+    left_out = list(labels.left_out)
+    learnt: list[_Photo] = []
+    checked: list[_Photo] = []
+    kept: set[str] = set()
+    for photo, split in zip(_photos_of(labels), labels.splits, strict=True):
         if split in TEST:
-            left_out[TESTED] += 1
+            left_out.append(LeftOut(entry=photo.entry, why=TESTED))
+            kept.add(photo.file)
         elif split in VALIDATION:
-            checked.append(example)
+            checked.append(photo)
         else:
-            learnt.append(example)
+            learnt.append(photo)
     if validation is not None:
-        left_out[NOT_ASKED] += len(checked)
+        left_out += [LeftOut(entry=photo.entry, why=NOT_ASKED) for photo in checked]
         left_out += validation.left_out
-        checked = validation.examples
+        checked = _photos_of(validation)
     elif not checked:
         learnt, checked = _shared_out(learnt, seed=seed)
-    fit = [example for example in checked if example.complete]
-    left_out[UNFIT_TO_CHECK] += len(checked) - len(fit)
-    return Division(learnt=learnt, checked=fit, left_out=+left_out)
+    fit = [photo for photo in checked if photo.example.complete]
+    left_out += [
+        LeftOut(entry=photo.entry, why=UNFIT_TO_CHECK) for photo in checked if not photo.example.complete
+    ]
+    kept |= {photo.file for photo in fit}
+    left_out += [LeftOut(entry=photo.entry, why=COPIED) for photo in learnt if photo.file in kept]
+    learnt = [photo for photo in learnt if photo.file not in kept]
+    return Division(
+        learnt=[photo.example for photo in learnt],
+        checked=[photo.example for photo in fit],
+        left_out=left_out,
+        used=[photo.entry | {"used": LEARNT} for photo in learnt]
+        + [photo.entry | {"used": CHECKED} for photo in fit],
+        others=labels.others + (validation.others if validation else Counter()),
+    )
 
 
-def _shared_out(examples: Sequence[Example], *, seed: int) -> tuple[list[Example], list[Example]]:
-    """All examples, some of the complete ones for validation if there are enough of them."""
-    complete = [example for example in examples if example.complete]
-    if len(complete) < FEWEST_TO_DIVIDE:
-        return list(examples), []
-    # By the whole path: photos of two data sets may have one name.
-    sides = split_by_source([example.path.as_posix() for example in complete], seed=seed)
-    checked = {example.path for example, side in zip(complete, sides, strict=True) if side == "val"}
+@dataclass(frozen=True)
+class _Photo:
+    """An example, and what ``labels.json`` says of it."""
+
+    example: Example
+    entry: dict[str, Any]
+
+    @property
+    def file(self) -> str:
+        """What tells photos apart: the hash, else the whole path, as two data sets may share a name."""
+        return self.example.sha256 or self.example.path.as_posix()
+
+
+def _photos_of(labels: Labels) -> list[_Photo]:
+    return [_Photo(*both) for both in zip(labels.examples, labels.entries, strict=True)]
+
+
+def _shared_out(photos: Sequence[_Photo], *, seed: int) -> tuple[list[_Photo], list[_Photo]]:
+    """All photos, some of the complete ones for validation if there are enough of them."""
+    complete = [photo.file for photo in photos if photo.example.complete]
+    if len(set(complete)) < FEWEST_TO_DIVIDE:
+        return list(photos), []
+    sides = split_by_source(complete, seed=seed)
+    checked = {file for file, side in zip(complete, sides, strict=True) if side == "val"}
     return (
-        [example for example in examples if example.path not in checked],
-        [example for example in examples if example.path in checked],
+        [photo for photo in photos if photo.file not in checked],
+        [photo for photo in photos if photo.file in checked and photo.example.complete],
     )
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import pickle
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,8 @@ class Asked:
     resume: bool = False
     lenient: bool = False
     """Labels that cannot be used are left out."""
+    categories: Sequence[str] = ()
+    """The categories that are caps."""
 
     def recipe(self, usual: Recipe) -> Recipe:
         """The file's, or the usual one where none is named, with what the options say otherwise."""
@@ -97,21 +100,21 @@ def train_as_asked(
     Raises FairyringError, and whatever ``progress`` raises; then it can be resumed.
     """
     on = device_of(device)
-    labels = labels_at(sources, lenient=asked.lenient, progress=progress)
+    read = partial(labels_at, lenient=asked.lenient, categories=asked.categories, progress=progress)
+    labels = read(sources)
     # Only so many images are validated on, and they are to be of every file.
-    validation = (
-        labels_at(asked.val, lenient=asked.lenient, in_turn=True, progress=progress) if asked.val else None
-    )
-    record = record_of(labels, validation)
+    validation = read(asked.val, in_turn=True) if asked.val else None
     if asked.resume:
-        start = continuation_of(out, asked, record)
+        start = continuation_of(out, asked)
     else:
         weights = asked.weights
         if weights is None and is_project(sources[0]):
             weights = shipped_for(asked.recipe(Recipe()))
         goes_on = weights is not None and Path(weights).suffix == ".safetensors"
-        start = start_of(asked.recipe(further() if goes_on else Recipe()), weights, record)
+        start = start_of(asked.recipe(further() if goes_on else Recipe()), weights)
     photos = divided(labels, validation, seed=start.recipe.seed)
+    record = record_of(labels, validation, photos)
+    start = of_labels(start, record, out=out, resume=asked.resume)
     say(str(photos))
     result = train(
         photos.learnt,
@@ -154,12 +157,12 @@ def further() -> Recipe:
     )
 
 
-def start_of(recipe: Recipe, weights: str | None, labels: bytes) -> Start:
+def start_of(recipe: Recipe, weights: str | None) -> Start:
     """A new training: from weights of ours, a backbone's ``.pth``, or (``imagenet``, None) ImageNet's.
 
     Raises FairyringError where they cannot be had, or do not fit the recipe's network.
     """
-    notes: dict[str, Any] = {"labels": digest_of(labels), "base": weights or IMAGENET}
+    notes: dict[str, Any] = {"base": weights or IMAGENET}
     if weights in (None, IMAGENET):
         _require_imagenet(recipe)
         return Start(recipe=recipe, base=None, notes=notes)
@@ -211,10 +214,10 @@ def shipped_for(recipe: Recipe) -> str | None:
     return str(SHIPPED)
 
 
-def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
+def continuation_of(out: Path, asked: Asked) -> Start:
     """The start of a training that resumes the one in ``out``, by its own recipe.
 
-    Raises CheckpointError where there is none, FairyringError where the recipe or the labels are others.
+    Raises CheckpointError where there is none, FairyringError where the recipe is another.
     """
     try:
         card = msgspec.json.decode((out / CARD).read_bytes(), type=dict[str, Any])
@@ -230,19 +233,26 @@ def continuation_of(out: Path, asked: Asked, labels: bytes) -> Start:
             f"The training in {out} has another recipe ({', '.join(changed)}); "
             "resume without --config, --iterations and --seed, or train into a new folder."
         )
-    if card.get("labels") != digest_of(labels):
-        raise FairyringError(
-            f"The labels have changed since the training in {out} began; train into a new folder, "
-            f"from its weights if you like."
-        )
     card.pop("images", None)
     return Start(recipe=recipe, base=None, notes=card)
 
 
-def record_of(labels: Labels, validation: Labels | None) -> bytes:
-    """``labels.json``: which images were learnt from, and which revision of each cap."""
+def of_labels(start: Start, labels: bytes, *, out: Path, resume: bool) -> Start:
+    """The start with a note of the labels; FairyringError where it goes on and had others."""
+    digest = digest_of(labels)
+    if resume and start.notes.get("labels") != digest:
+        raise FairyringError(
+            f"The labels have changed since the training in {out} began; train into a new folder, "
+            f"from its weights if you like."
+        )
+    return replace(start, notes=start.notes | {"labels": digest})
+
+
+def record_of(labels: Labels, validation: Labels | None, photos: Division) -> bytes:
+    """``labels.json``: which images and revisions of caps are used, and which images not, and why."""
     record = labels.record | ({"validation": validation.record} if validation else {})
-    return msgspec.json.encode(record)
+    others = {"other_categories": dict(photos.others)} if photos.others else {}
+    return msgspec.json.encode(record | others | {"images": photos.record()})
 
 
 def digest_of(labels: bytes) -> str:

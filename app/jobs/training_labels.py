@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from sqlalchemy import Connection
 
+from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Polygon, polygon_of_shape
 from fairyring.model.progress import Progress, silent
@@ -32,16 +33,29 @@ NOT_APPROVED = "not approved, as others are"
 
 
 @dataclass(frozen=True, kw_only=True)
+class LeftOut:
+    """A photo that plays no part, and why."""
+
+    entry: dict[str, Any]
+    """What ``labels.json`` says of it."""
+    why: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Labels:
     """Labelled photos, and the record of where they came from."""
 
     examples: list[Example]
     splits: list[str | None]
     """The ``split`` of each example's image."""
+    entries: list[dict[str, Any]]
+    """What ``labels.json`` says of each example's image, the revision of every cap among it."""
     record: dict[str, Any]
-    """The images, and the revision of every cap, for ``labels.json``."""
-    left_out: Counter[str]
-    """Numbers of photos that teach nothing, by the reason."""
+    """Where they came from, for ``labels.json``."""
+    left_out: list[LeftOut]
+    """The photos that teach nothing."""
+    others: Counter[str]
+    """Numbers of labels that are of no cap, by their category."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +69,8 @@ class _Labelled:
     """None where a file of others does not say; then all caps of a photo with labels are labelled."""
     entry: dict[str, Any]
     """What ``labels.json`` says of it."""
+    has_others: bool = False
+    """Whether something that is no cap is labelled in it."""
 
 
 def labels_at(
@@ -62,22 +78,28 @@ def labels_at(
     *,
     lenient: bool = False,
     in_turn: bool = False,
+    categories: Collection[str] = (),
     progress: Progress = silent,
 ) -> Labels:
-    """The labels of a project's folder, or of one COCO file or several. Raises FairyringError."""
+    """The labels of a project's folder, or of one COCO file or several, as ``only_caps`` leaves them.
+
+    Raises FairyringError.
+    """
     projects = [path for path in paths if is_project(path)]
     if projects and len(paths) > 1:
         raise FairyringError(f"{projects[0]} is a project; give it alone, or COCO files only.")
     if projects:
         with open_project(projects[0]) as project:
-            return labels_of_project(project, progress=progress)
+            return labels_of_project(project, categories=categories, progress=progress)
     for path in paths:
         if path.is_dir():
             raise FairyringError(f"{path} is no project; give a project's folder or a COCO file.")
-    return labels_of_coco(paths, lenient=lenient, in_turn=in_turn, progress=progress)
+    return labels_of_coco(paths, lenient=lenient, in_turn=in_turn, categories=categories, progress=progress)
 
 
-def labels_of_project(project: Project, *, progress: Progress = silent) -> Labels:
+def labels_of_project(
+    project: Project, *, categories: Collection[str] = (), progress: Progress = silent
+) -> Labels:
     """The labels of a project: of its approved images, else of all with annotations.
 
     An image that nobody called annotated or approved is labelled in part. Ignored and doubtful caps, and
@@ -85,8 +107,11 @@ def labels_of_project(project: Project, *, progress: Progress = silent) -> Label
     Raises FairyringError for a photo that is gone or changed, and where nothing is annotated.
     """
     with project.read() as connection:
-        rule, ids, left_out = _labelled(connection)
+        rule, ids, reasons = _labelled(connection)
         found = [(get_image(connection, i), load_annotations(connection, i)) for i in ids]
+        left_out = [
+            LeftOut(entry=_entry_of(get_image(connection, i), ()), why=why) for i, why in reasons.items()
+        ]
     if not found:
         raise FairyringError(f"Nothing is annotated in {project.folder} yet; annotate some images first.")
     labelled = []
@@ -102,7 +127,7 @@ def labels_of_project(project: Project, *, progress: Progress = silent) -> Label
             )
         )
     record = {"project": project.name, "id": project.id, "images_are": rule}
-    return _labels(labelled, record=record, left_out=left_out)
+    return _labels(labelled, categories, record=record, left_out=left_out)
 
 
 def labels_of_coco(
@@ -110,6 +135,7 @@ def labels_of_coco(
     *,
     lenient: bool = False,
     in_turn: bool = False,
+    categories: Collection[str] = (),
     progress: Progress = silent,
 ) -> Labels:
     """The labels of COCO files; photos are looked for beside each file and in ``images/`` beside it.
@@ -118,24 +144,26 @@ def labels_of_coco(
     each, so that the first few are of all of them. What an import would report ends it, unless ``lenient``
     leaves such items out. Raises StoreError.
     """
-    files = [_of_file(path, lenient=lenient, progress=progress) for path in paths]
+    files = [_of_file(path, categories, lenient=lenient, progress=progress) for path in paths]
     joined = _in_turn if in_turn else _one_after_the_other
     return Labels(
         examples=joined([labels.examples for labels in files]),
         splits=joined([labels.splits for labels in files]),
+        entries=joined([labels.entries for labels in files]),
         record={"files": [labels.record for labels in files]},
-        left_out=sum((labels.left_out for labels in files), Counter()),
+        left_out=_one_after_the_other([labels.left_out for labels in files]),
+        others=sum((labels.others for labels in files), Counter()),
     )
 
 
-def _of_file(path: Path, *, lenient: bool, progress: Progress) -> Labels:
+def _of_file(path: Path, categories: Collection[str], *, lenient: bool, progress: Progress) -> Labels:
     sources = gather([path], kind=ImportFormat.coco)
     intake = take_in(sources, known=(), progress=progress)
     if intake.problems and not (lenient and intake.seen):
         others = len(intake.problems) - 1
         more = f" ({others} more; --lenient leaves such items out)" if others else " (or give --lenient)"
         raise StoreError(f"{intake.problems[0]}{more}")
-    return _of_intake(sources, intake)
+    return _of_intake(sources, intake, categories)
 
 
 def _one_after_the_other(lists: Sequence[list[Item]]) -> list[Item]:
@@ -148,18 +176,21 @@ def _in_turn(lists: Sequence[list[Item]]) -> list[Item]:
     return [items[place] for place in range(longest) for items in lists if place < len(items)]
 
 
-def _labelled(connection: Connection) -> tuple[str, list[int], Counter[str]]:
-    """The rule by which images of a project teach, those that do, and how many do not, by the reason."""
+def _labelled(connection: Connection) -> tuple[str, list[int], dict[int, str]]:
+    """The rule by which images of a project teach, those that do, and why each of the others does not."""
     everything = list_ids(connection, ImageFilter())
     said = {*list_ids(connection, ImageFilter(status="annotated"))}
     with_caps = {*said, *list_ids(connection, ImageFilter(annotated=True))}
     approved = list_ids(connection, ImageFilter(status="approved"))
     if approved:
-        left_out = Counter({NOT_APPROVED: len(with_caps.difference(approved))})
-        left_out[NO_LABELS] = len(everything) - len(with_caps.union(approved))
-        return "approved", approved, left_out
+        reasons = {
+            number: NOT_APPROVED if number in with_caps else NO_LABELS
+            for number in everything
+            if number not in set(approved)
+        }
+        return "approved", approved, reasons
     ids = [number for number in everything if number in with_caps]
-    return "annotated", ids, Counter({NO_LABELS: len(everything) - len(ids)})
+    return "annotated", ids, {number: NO_LABELS for number in everything if number not in with_caps}
 
 
 def _entry_of(image: Image, annotations: Sequence[Annotation]) -> dict[str, Any]:
@@ -167,7 +198,7 @@ def _entry_of(image: Image, annotations: Sequence[Annotation]) -> dict[str, Any]
     return {"file_name": image.file_name, "sha256": image.sha256, "caps": revisions}
 
 
-def _of_intake(sources: Sources, intake: Intake) -> Labels:
+def _of_intake(sources: Sources, intake: Intake, categories: Collection[str]) -> Labels:
     labelled = []
     for name in sorted(intake.seen):
         photo = intake.photos[name]
@@ -183,28 +214,58 @@ def _of_intake(sources: Sources, intake: Intake) -> Labels:
         )
     (document,) = sources.documents
     record = {"file": document.path.name, "sha256": document.sha256}
-    return _labels(labelled, record=record, left_out=Counter())
+    return _labels(labelled, categories, record=record, left_out=())
 
 
-def _labels(labelled: Iterable[_Labelled], *, record: dict[str, Any], left_out: Counter[str]) -> Labels:
-    """The examples of the photos that teach something; the others are counted."""
-    examples: list[Example] = []
-    splits: list[str | None] = []
-    entries: list[dict[str, Any]] = []
+def _labels(
+    labelled: Sequence[_Labelled],
+    categories: Collection[str],
+    *,
+    record: dict[str, Any],
+    left_out: Sequence[LeftOut],
+) -> Labels:
+    """The examples of the photos that teach something, and the others with the reason."""
+    labelled, others = only_caps(labelled, categories, where=record.get("file") or record["project"])
+    labels = Labels(examples=[], splits=[], entries=[], record=record, left_out=list(left_out), others=others)
     for item in labelled:
         example = _example(item)
         reason = _why_left_out(example, item)
         if reason is not None:
-            left_out[reason] += 1
+            labels.left_out.append(LeftOut(entry=item.entry, why=reason))
             continue
-        examples.append(example)
-        splits.append(item.photo.split)
-        entries.append(item.entry | ({} if example.complete else {"complete": False}))
-    return Labels(examples=examples, splits=splits, record=record | {"images": entries}, left_out=+left_out)
+        labels.examples.append(example)
+        labels.splits.append(item.photo.split)
+        labels.entries.append(item.entry | ({} if example.complete else {"complete": False}))
+    return labels
+
+
+def only_caps(
+    labelled: Sequence[_Labelled], categories: Collection[str], *, where: str
+) -> tuple[list[_Labelled], Counter[str]]:
+    """The photos with the labels of these categories alone, and how many there are of each other one.
+
+    Of none named: all where there is one category, of several the one that is called as ours. What is of
+    another category is known to be no cap. Raises FairyringError where nobody says which are caps.
+    """
+    named = Counter(cap.category for item in labelled for cap in item.caps)
+    wanted = {name.casefold() for name in categories} or {DEFAULT_CATEGORY}
+    taught = {name for name in named if name.casefold() in wanted}
+    if not categories and len(named) == 1:
+        taught = {*named}
+    if named and not taught:
+        listed = ", ".join(sorted(named))
+        raise FairyringError(
+            f"The labels of {where} are of {listed}; say with --categories which of these are caps."
+        )
+    kept = []
+    for item in labelled:
+        caps = [cap for cap in item.caps if cap.category in taught]
+        kept.append(replace(item, caps=caps, has_others=len(caps) < len(item.caps)))
+    return kept, Counter({name: count for name, count in named.items() if name not in taught})
 
 
 def _why_left_out(example: Example, item: _Labelled) -> str | None:
-    said_to_be_empty = item.status is not None and not item.caps
+    said_to_be_empty = not item.caps and (item.status is not None or item.has_others)
     if example.caps or (example.complete and (example.ignored or said_to_be_empty)):
         return None
     return NO_OUTLINES if item.caps else NO_LABELS
@@ -220,6 +281,7 @@ def _example(item: _Labelled) -> Example:
         complete=item.status is None or is_complete(item.status),
         light=item.photo.light,
         form=item.photo.form,
+        sha256=item.photo.sha256,
     )
 
 

@@ -45,8 +45,8 @@ class Example:
     """Whether these are all caps of the photo; else nothing is learnt outside them."""
     light: str | None = None
     form: str | None = None
-    source: str = ""
-    """The number of a stored image and the revisions of its caps."""
+    sha256: str = ""
+    """Of the photo's file: copies of it are one photo. Empty where it is not known."""
 
 
 class SampleConfig(Struct, frozen=True, kw_only=True):

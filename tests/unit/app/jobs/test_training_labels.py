@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from hashlib import sha256
 from pathlib import Path
 
-from fairyring.app.jobs.training_labels import labels_at, labels_of_project
+from fairyring.app.jobs.division import divided
+from fairyring.app.jobs.training_labels import Labels, labels_at, labels_of_project
 from fairyring.model.geometry.shapes import Circle
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
@@ -15,6 +17,11 @@ from fairyring.storage.statuses import set_status
 from tests.support.terminal import sentence, train
 from tests.unit.app.conftest import circle
 from tests.unit.app.jobs.conftest import annotate
+
+
+def reasons(labels: Labels) -> Counter[str]:
+    """How many photos teach nothing, by the reason."""
+    return Counter(each.why for each in labels.left_out)
 
 
 def test_approved_images_alone_are_learnt_once_there_are_some(labelled: Project) -> None:
@@ -106,8 +113,8 @@ def test_a_photo_teaches_as_complete_once_somebody_calls_it_annotated(labelled: 
     labelled.write(lambda connection: set_status(connection, 2, "annotated", user="Ada"))
     labels = labels_of_project(labelled)
     assert [(e.path.name, e.complete) for e in labels.examples] == [("bed_1.jpg", False), ("bed_2.jpg", True)]
-    assert [entry.get("complete") for entry in labels.record["images"]] == [False, None]
-    assert labels.left_out == {"without labels": 1}
+    assert [entry.get("complete") for entry in labels.entries] == [False, None]
+    assert reasons(labels) == {"without labels": 1}
 
 
 def test_an_empty_photo_teaches_that_nothing_is_there_if_somebody_says_so(labelled: Project) -> None:
@@ -118,9 +125,9 @@ def test_an_empty_photo_teaches_that_nothing_is_there_if_somebody_says_so(labell
 
 def test_photos_that_teach_nothing_are_counted_by_the_reason(labelled: Project) -> None:
     annotate(labelled, 3, uid="unsure", visible=circle(50, 50, 20), doubtful=True)
-    assert labels_of_project(labelled).left_out == {"without a cap that can be learnt": 1}
+    assert reasons(labels_of_project(labelled)) == {"without a cap that can be learnt": 1}
     labelled.write(lambda connection: set_status(connection, 2, "approved", user="Ada"))
-    assert labels_of_project(labelled).left_out == {"not approved, as others are": 2}
+    assert reasons(labels_of_project(labelled)) == {"not approved, as others are": 2}
 
 
 def test_a_coco_file_of_others_is_complete_and_one_of_ours_says_which_photos_are(
@@ -139,4 +146,61 @@ def test_a_coco_file_of_others_is_complete_and_one_of_ours_says_which_photos_are
     file.write_text(json.dumps(document))
     labels = labels_at([file])
     assert [example.complete for example in labels.examples] == [True, True]
-    assert labels.left_out == {"without labels": 1}
+    assert reasons(labels) == {"without labels": 1}
+
+
+def with_stones(project: Project, folder: Path) -> Path:
+    """An export in which one of two labels is called a stone."""
+    export_coco(project, folder)
+    file = folder / "instances.json"
+    document = json.loads(file.read_text())
+    document["categories"].append({"id": 99, "name": "Stone"})
+    document["annotations"][1]["category_id"] = 99
+    for image in document["images"]:
+        image.pop("status", None)
+        image.pop("partial", None)
+    file.write_text(json.dumps(document))
+    return file
+
+
+def test_only_caps_are_taught_where_a_file_has_other_categories(labelled: Project, tmp_path: Path) -> None:
+    labels = labels_at([with_stones(labelled, tmp_path / "coco")])
+    assert [(len(example.caps), len(example.ignored)) for example in labels.examples] == [(1, 0), (0, 0)]
+    assert labels.others == {"Stone": 1}
+    assert "Labels that are of no cap: 1 Stone." in str(divided(labels, None, seed=0))
+
+
+def test_it_can_be_said_which_categories_are_caps(labelled: Project, tmp_path: Path) -> None:
+    file = with_stones(labelled, tmp_path / "coco")
+    labels = labels_at([file], categories=["stone"])
+    assert [len(example.caps) for example in labels.examples] == [0, 1]
+    assert labels.others == {"mushroom": 1}
+    both = labels_at([file], categories=["stone", "mushroom"])
+    assert [len(example.caps) for example in both.examples] == [1, 1]
+    assert not both.others
+
+
+def test_where_nothing_is_called_a_cap_it_must_be_said_what_is(labelled: Project, tmp_path: Path) -> None:
+    file = with_stones(labelled, tmp_path / "coco")
+    document = json.loads(file.read_text())
+    document["categories"] = [{"id": 1, "name": "white"}, {"id": 99, "name": "brown"}]
+    file.write_text(json.dumps(document))
+    told = sentence(train(file, tmp_path / "run"))
+    assert "brown, white" in told
+    assert "--categories" in told
+    assert not (tmp_path / "run").exists()
+    # One category is of caps, whatever it is called.
+    document["annotations"][1]["category_id"] = 1
+    file.write_text(json.dumps(document))
+    assert sum(len(example.caps) for example in labels_at([file]).examples) == 2
+
+
+def test_every_photo_of_a_project_is_in_the_record_with_its_reason(labelled: Project) -> None:
+    labelled.write(lambda connection: set_status(connection, 2, "approved", user="Ada"))
+    said = divided(labels_of_project(labelled), None, seed=0).record()
+    assert {entry["file_name"][:5]: entry.get("used", entry.get("left_out")) for entry in said} == {
+        "bed_1": "not approved, as others are",
+        "bed_2": "learnt",
+        "bed_3": "without labels",
+    }
+    assert all(len(entry["sha256"]) == 64 for entry in said)
