@@ -25,3 +25,8 @@ def test_shipped_weights_see_most_caps_of_fresh_beds(tmp_path: Path) -> None:
     figures = evaluate_masks(predicted, document_of(beds.document))
     assert figures["AP"] >= LEAST_AP
     assert figures["S50"] >= LEAST_S50
+
+
+def test_the_card_beside_the_weights_is_of_these_very_weights() -> None:
+    card = SHIPPED.with_suffix(".md").read_text()
+    assert f"digest `{load_weights(SHIPPED).digest[:8]}…`" in card
