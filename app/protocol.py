@@ -17,6 +17,7 @@ from fairyring.storage.records import (
     Edit,
     ImageContents,
     Outcome,
+    Outline,
     Prediction,
     Status,
     StatusEdit,
@@ -64,6 +65,21 @@ class Refit(FromEditor, frozen=True, tag="refit"):
     cap: Cap
 
 
+class FindCap(FromEditor, frozen=True, tag="find_cap"):
+    """Asks for the cap that the network sees at points or in a box; with neither it only looks at the photo.
+
+    Only the latest is answered.
+    """
+
+    seq: int
+    image: int
+    points: list[tuple[float, float]] = field(default_factory=list)
+    wanted: list[bool] = field(default_factory=list)
+    """Of each point, whether it is to be on the cap; the first is."""
+    box: tuple[float, float, float, float] | None = None
+    """Left, top, right, bottom."""
+
+
 class Select(FromEditor, frozen=True, tag="select"):
     """Says what is selected, for the inspector."""
 
@@ -92,7 +108,7 @@ class Toggle(FromEditor, frozen=True, tag="toggle"):
     layer: str
 
 
-Incoming = Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle
+Incoming = Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle | FindCap
 
 
 class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -129,6 +145,16 @@ class Outcomes(FromServer, frozen=True, tag="outcomes"):
 
 class Working(FromServer, frozen=True, tag="working"):
     """Edits of this tab are being stored; said every few seconds for as long as that takes."""
+
+
+class FoundCap(FromServer, frozen=True, tag="found_cap"):
+    """Answers FindCap."""
+
+    seq: int
+    image: int
+    visible: Outline | None
+    """None where the network sees no cap."""
+    score: float | None
 
 
 class StatusChanged(FromServer, frozen=True, tag="status"):
@@ -215,6 +241,7 @@ Outgoing = (
     | Recalled
     | Changed
     | Predicted
+    | FoundCap
     | Fitted
     | Layers
     | Command

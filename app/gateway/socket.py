@@ -15,6 +15,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from fairyring.app.gateway.bounded_sockets import trust
 from fairyring.app.gateway.login import name_of
 from fairyring.app.live.editing import Refits, apply_edits
+from fairyring.app.live.finding import Finding
 from fairyring.app.live.opening import open_image, reopen, step
 from fairyring.app.live.recalling import recall
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
@@ -24,6 +25,7 @@ from fairyring.app.panels.layers import toggle
 from fairyring.app.panels.layout import build_panel
 from fairyring.app.protocol import (
     Edits,
+    FindCap,
     FromServer,
     Hello,
     Incoming,
@@ -53,6 +55,9 @@ FRAME_MARGIN = 1024
 
 UNREADABLE = (msgspec.DecodeError, UnicodeError, RecursionError)
 """What comes of a text that is no message: no JSON, half a character, a list in a list in a list …"""
+
+Answering = tuple[Refits, Finding]
+"""Who answers what a tab asks again and again: of its caps, of the network."""
 
 _incoming = msgspec.json.Decoder(Incoming)
 _outgoing = msgspec.json.Encoder()
@@ -134,7 +139,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
         session.notify("This project is read-only; changes to it are refused.", "warning")
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
-    refits = Refits(workspace, session)
+    refits, finding = Refits(workspace, session), Finding(workspace, session)
     limit = workspace.settings.message_limit_mb * A_MEGABYTE
     trust(socket.scope, most=limit + FRAME_MARGIN)
     try:
@@ -143,29 +148,33 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
             if len(text) > limit:
                 await socket.close(TOO_BIG, "This message is larger than the server takes.")
                 return
-            await _handle(workspace, session, refits, text)
+            await _handle(workspace, session, (refits, finding), text)
     except (WebSocketDisconnect, KeyError):
         return
     finally:
         refits.close()
+        finding.close()
 
 
-async def _handle(workspace: Workspace, session: Session, refits: Refits, text: str) -> None:
+async def _handle(workspace: Workspace, session: Session, answering: Answering, text: str) -> None:
     """Carries out one message; errors that a person can put right are shown, and the socket stays open."""
     try:
         message = _incoming.decode(text)
     except UNREADABLE as error:
         _refuse(session, text, reason=str(error))
         return
-    await tell_errors(session, lambda: _carry_out(workspace, session, refits, message))
+    await tell_errors(session, lambda: _carry_out(workspace, session, answering, message))
 
 
-async def _carry_out(workspace: Workspace, session: Session, refits: Refits, message: Incoming) -> None:
+async def _carry_out(workspace: Workspace, session: Session, answering: Answering, message: Incoming) -> None:
+    refits, finding = answering
     match message:
         case Edits():
             await apply_edits(workspace, session, message)
         case Refit():
             refits.ask(message)
+        case FindCap():
+            finding.ask(message)
         case Open(image=image, select=select):
             await open_image(workspace, session, image, select=select)
         case Step(by=by):

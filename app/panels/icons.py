@@ -6,6 +6,7 @@ from fairyring.app.panels.markup import Markup
 
 _PATHS = {
     "select": "M5 3l14 8-6 1.6L10 19z",
+    "point": "M12 3v4M12 17v4M3 12h4M17 12h4M12 12v.01M12 8a4 4 0 100 8 4 4 0 000-8z",
     "polygon": "M12 4l8 6-3 9H7l-3-9zM12 4v.01M20 10v.01M17 19v.01M7 19v.01M4 10v.01",
     "circle": "M12 4a8 8 0 100 16 8 8 0 000-16zM12 11v2M11 12h2",
     "rim": "M5 17a9 9 0 1114 0M7 17c1 4 9 4 10 0",

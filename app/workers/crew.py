@@ -12,6 +12,8 @@ from fairyring.app.workers.worker import Worker
 MOST_FOR_FITS = 4
 """Most processes for fits: the one that answers everybody keeps no more of them busy."""
 A_LITTLE_NICE, NICE = 1, 10
+LOOKING_S = 900.0
+"""A network may look at a large photo for so long, on a machine without a GPU that is busy."""
 """Answering comes before computing, and what people wait for before what they do not."""
 
 Found = TypeVar("Found")
@@ -38,6 +40,8 @@ class Crew:
     """Whole images: before exports, after predictions, against their predictions."""
     photos: Worker
     """Photos that no browser shows as they are, and smaller copies."""
+    network: Worker
+    """The network's caps at points: it keeps the network, and what that saw in the photo people point at."""
 
     def of_image(self, image_id: int) -> Worker:
         """Who works out the fits of this image."""
@@ -45,7 +49,7 @@ class Crew:
 
     def close(self) -> None:
         """Ends all of them."""
-        for worker in (*self.fits, self.patient, self.photos):
+        for worker in (*self.fits, self.patient, self.photos, self.network):
             worker.close()
 
 
@@ -57,4 +61,5 @@ def crew(*, apart: bool) -> Crew:
         fits=[Worker(f"fits-{number}", nice=A_LITTLE_NICE, apart=apart) for number in range(count)],
         patient=Worker("patient", nice=NICE, apart=apart),
         photos=Worker("photos", nice=NICE, apart=apart),
+        network=Worker("network", nice=A_LITTLE_NICE, apart=apart, patience_s=LOOKING_S),
     )

@@ -14,6 +14,7 @@ export default {
       "title": "Tools",
       "commands": [
         { "name": "select", "keys": ["V"], "words": "Select and edit", "label": "Select" },
+        { "name": "point", "keys": ["E"], "words": "Take the cap that the network sees under the pointer", "label": "Point" },
         { "name": "polygon", "keys": ["W"], "words": "Draw a visible outline", "label": "Outline" },
         { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
         {
@@ -110,6 +111,7 @@ export default {
     { "gesture": "Shift-drag to the right · to the left", "words": "Select all inside · all that is touched" },
     { "gesture": "Double click", "words": "Zoom to the cap" },
     { "gesture": "Drag a vertex", "words": "Move it; a dense outline follows (Alt: this vertex only)" },
+    { "gesture": "Point: click · Shift-click · Alt-click · drag", "words": "Take · add · take away · the cap in a box" },
     { "gesture": "Drag an edge", "words": "Put a vertex in" },
     { "gesture": "Alt-click a vertex", "words": "Take it out" },
     { "gesture": "Ctrl-drag along a rim", "words": "Redraw that stretch (Alt: the other side)" }

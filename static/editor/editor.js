@@ -18,6 +18,7 @@ import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
 import { EditorState } from "./state/editor_state.js";
 import { browserStorage } from "./sync/browser_storage.js";
+import { CapRequests } from "./sync/cap_requests.js";
 import { KeptDrawings } from "./sync/kept_drawings.js";
 import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
@@ -60,6 +61,7 @@ export class Editor {
   #conflicts;
   #refusals;
   #toolbox;
+  #found;
   #perform;
 
   /**
@@ -86,6 +88,7 @@ export class Editor {
         say: (text, level) => this.#say(text, level),
       }),
     });
+    this.#found = new CapRequests(send, () => state.image?.id ?? null);
     const threshold = new Threshold(state);
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
@@ -120,6 +123,7 @@ export class Editor {
         pointer.cursor();
       },
       say: (text) => this.#say(text),
+      network: { ask: (question, how) => this.#found.ask(question, how), busy: () => this.#found.busy },
     });
     this.#drawings = new KeptDrawings(state.halfDrawn, { storage: browserStorage() });
     this.#opening = new Opening({
@@ -233,7 +237,10 @@ export class Editor {
   }
 
   #connectionChanged() {
-    if (this.#transport.state === "offline") this.#sync.pause();
+    if (this.#transport.state === "offline") {
+      this.#sync.pause();
+      this.#found.forget();
+    }
     this.#progress();
   }
 
@@ -282,6 +289,8 @@ export class Editor {
       case "predicted":
         if (message.image === this.#state.image?.id) this.#state.predict(message.predictions);
         return;
+      case "found_cap":
+        return this.#found.take(message);
       case "fit":
         return this.#liveFit.take(message);
       case "layers":

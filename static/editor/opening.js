@@ -78,6 +78,7 @@ export class Opening {
   /** What was half drawn on the image is there again. @type {(image: number) => void} */
   #arrive(image) {
     putInAddress(image);
+    this.#parts.toolbox.tool.begin?.();
     void this.#parts.drawings.open(image).then((drawn) => {
       if (drawn) this.#parts.say(HALF_DRAWN, "info");
     });

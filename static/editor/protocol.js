@@ -241,7 +241,17 @@
  * @property {string} layer
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle} ToServer */
+/**
+ * @typedef {Object} FindCap
+ * @property {"find_cap"} type
+ * @property {number} seq
+ * @property {number} image
+ * @property {Point[]} points
+ * @property {boolean[]} wanted
+ * @property {[number, number, number, number] | null} box
+ */
+
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle | FindCap} ToServer */
 
 /**
  * @typedef {Object} Welcome
@@ -305,6 +315,15 @@
  */
 
 /**
+ * @typedef {Object} FoundCap
+ * @property {"found_cap"} type
+ * @property {number} seq
+ * @property {number} image
+ * @property {Outline | null} visible
+ * @property {number | null} score
+ */
+
+/**
  * @typedef {Object} Arc
  * @property {"visible" | "hidden" | "border" | "concave"} kind
  * @property {number[]} points
@@ -349,6 +368,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | Fitted | Layers | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Fitted | Layers | Command | Notice} FromServer */
 
 export {};

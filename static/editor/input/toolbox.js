@@ -7,6 +7,7 @@
 import { Broom } from "./tools/broom.js";
 import { CircleTool } from "./tools/circle.js";
 import { panTool } from "./tools/pan.js";
+import { PointTool } from "./tools/point.js";
 import { PolygonTool } from "./tools/polygon.js";
 import { rimTool } from "./tools/rim.js";
 import { RimPointsTool } from "./tools/rim_points.js";
@@ -38,8 +39,9 @@ export class Toolbox {
    * @param {Object} rest
    * @param {() => void} rest.changed  another tool is in hand
    * @param {(text: string) => void} rest.say
+   * @param {import("./tools/point.js").Network} rest.network
    */
-  constructor(state, { changed, say }) {
+  constructor(state, { changed, say, network }) {
     this.#state = state;
     this.#changed = changed;
     this.#say = say;
@@ -53,6 +55,7 @@ export class Toolbox {
       rim_points: new RimPointsTool(state),
       rim,
       split: splitTool(state, say),
+      point: new PointTool(state, say, network),
       pan: panTool(state),
     };
     this.tool = this.#tools.select;
@@ -108,6 +111,7 @@ export class Toolbox {
     if (this.tool.name === "polygon" && !this.#state.halfDrawn.empty) this.#say(STAYS_HALF_DRAWN);
     this.tool = this.#tools[name];
     this.#state.selection.hover(null);
+    this.tool.begin?.();
     this.#changed();
   }
 }

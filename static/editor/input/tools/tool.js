@@ -19,6 +19,7 @@
  * @typedef {Object} Tool
  * @property {string} name
  * @property {string} cursor
+ * @property {() => void} [begin]  it is taken up
  * @property {(press: Press) => void} hover
  * @property {(press: Press) => void} down
  * @property {(press: Press) => void} drag

@@ -1,0 +1,74 @@
+"""The cap that the network sees at points of a photo; for a worker, which keeps what the network saw."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from msgspec import Struct
+
+from fairyring.model import photo
+from fairyring.model.geometry.shapes import Outline
+
+if TYPE_CHECKING:
+    from fairyring.model.predict.predictor import Predictor
+    from fairyring.model.predict.seen import Detection, Seen
+
+NEAR_PX = 300.0
+"""Caps farther from what is pointed at than this hide nothing of it."""
+
+
+class Asked(Struct, frozen=True, kw_only=True):
+    """What is asked of the network, image pixels."""
+
+    photo: Path
+    weights: Path
+    points: Sequence[tuple[float, float]] = ()
+    wanted: Sequence[bool] = ()
+    """Of each point, whether it is to be on the cap; the first is."""
+    box: tuple[float, float, float, float] | None = None
+    front: Sequence[Outline] = ()
+    """What other caps show, of which it may show no pixel."""
+
+
+def cap_found(asked: Asked) -> tuple[float, Outline] | None:
+    """The score and the outline of the cap; None where the network sees none, or was to look only."""
+    predictor, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
+    found: Detection | None = None
+    if asked.box is not None:
+        found = predictor.within(seen, asked.box, front=asked.front)
+    elif asked.points:
+        found = predictor.at(seen, asked.points, asked.wanted, front=asked.front)
+    return None if found is None else (found.score, found.outline)
+
+
+def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> list[Outline]:
+    """Those of which a vertex is near to one of the places."""
+    return [outline for outline in outlines if any(_is_near(outline, place) for place in places)]
+
+
+def _is_near(outline: Outline, place: tuple[float, float]) -> bool:
+    points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
+    return bool((np.abs(points - np.array(place)).max(axis=1) < NEAR_PX).any())
+
+
+@lru_cache(maxsize=1)
+def _seen(path: Path, weights: Path, changed: int) -> tuple[Predictor, Seen]:
+    from fairyring.model.predict.scale import see_at_its_scale
+
+    predictor = _predictor(weights, changed)
+    rgb = np.ascontiguousarray(photo.read(path)[:, :, ::-1])
+    return predictor, see_at_its_scale(predictor, rgb)
+
+
+@lru_cache(maxsize=1)
+def _predictor(weights: Path, _changed: int) -> Predictor:
+    # PyTorch is loaded by the worker when somebody points for the first time, and never by the server.
+    from fairyring.model.device import device_of
+    from fairyring.model.network.weights import load_weights
+    from fairyring.model.predict.predictor import Predictor
+
+    return Predictor(load_weights(weights).network, device=device_of("auto"))

@@ -1,0 +1,81 @@
+"""Answers what the network sees where somebody points."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+
+import anyio.to_thread
+
+from fairyring.app.caps.found_caps import Asked, cap_found, near
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.protocol import FindCap, FoundCap
+from fairyring.app.weights import require_weights
+from fairyring.app.workers.worker import URGENT
+from fairyring.model.errors import FairyringError
+
+log = logging.getLogger(__name__)
+
+
+class Finding:
+    """Answers one tab: one question at a time, and of those that wait only the latest."""
+
+    def __init__(self, workspace: Workspace, session: Session) -> None:
+        self._workspace = workspace
+        self._session = session
+        self._latest: FindCap | None = None
+        self._task: asyncio.Task[None] | None = None
+
+    def ask(self, request: FindCap) -> None:
+        """Asks, in place of a question that has not been begun."""
+        self._latest = request
+        if self._task is None:
+            self._task = asyncio.create_task(self._answer_all())
+
+    def close(self) -> None:
+        """Drops what waits, and what is at work unless it has been begun."""
+        self._latest = None
+        if self._task is not None:
+            self._task.cancel()
+
+    async def _answer_all(self) -> None:
+        try:
+            while (request := self._latest) is not None:
+                self._latest = None
+                await self._answer(request)
+        finally:
+            self._task = None
+
+    async def _answer(self, request: FindCap) -> None:
+        found: tuple[float, list[list[float]]] | None = None
+        try:
+            found = await self._found(request)
+        except FairyringError as error:
+            self._session.notify(str(error), "error")
+        except Exception:
+            log.exception("The network could not be asked.")
+        score, visible = found or (None, None)
+        self._session.send(FoundCap(seq=request.seq, image=request.image, visible=visible, score=score))
+
+    async def _found(self, request: FindCap) -> tuple[float, list[list[float]]] | None:
+        caps, project = self._session.caps, self._workspace.project
+        if caps is None or caps.image.id != request.image:
+            return None
+        weights = await anyio.to_thread.run_sync(require_weights, project)
+        path = await anyio.to_thread.run_sync(project.originals.path_of, caps.image)
+        others = [a.cap.visible for a in caps.annotations.values() if a.cap.visible and not a.deleted]
+        taken = {a.cap.prediction for a in caps.annotations.values()}
+        others += [p.visible for p in caps.predictions if p.id not in taken]
+        box = request.box
+        places = request.points or ([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)] if box else [])
+        asked = Asked(
+            photo=path,
+            weights=weights,
+            points=request.points,
+            wanted=request.wanted,
+            box=box,
+            front=near(others, places),
+        )
+        answer = self._workspace.crew.network.ask(lambda: (cap_found, (asked,)), urgency=URGENT)
+        return await asyncio.wrap_future(answer)

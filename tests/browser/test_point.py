@@ -1,0 +1,56 @@
+"""A click takes the cap that the network sees under the pointer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from shapely import Polygon
+
+from fairyring.app.bench.browser.tab import Tab, centroid
+from fairyring.app.bench.serving import Server
+from tests.support.kept import kept_cap, live_caps
+
+
+def likeness(a: list[float], b: list[float]) -> float:
+    """IoU of two rings."""
+    first, second = (Polygon([*zip(ring[::2], ring[1::2], strict=True)]).buffer(0) for ring in (a, b))
+    return first.intersection(second).area / first.union(second).area
+
+
+@pytest.fixture
+def tab(server: Server, open_tab: Callable[..., Tab]) -> Tab:
+    return open_tab(server)
+
+
+def test_a_missed_cap_is_taken_by_a_click_and_another_by_a_box(tab: Tab, project: Path) -> None:
+    large = sorted(tab.state("predictions"), key=lambda p: -len(p["cap"]["visible"][0]))
+    sure = [p["cap"]["visible"][0] for p in large if p["score"] > 0.9][:2]
+    for ring in sure:
+        tab.page.mouse.move(*tab.screen(centroid(ring)))
+        tab.page.mouse.move(*tab.screen((centroid(ring)[0] + 2, centroid(ring)[1])))
+        tab.press("Delete")
+    tab.saved()
+    assert live_caps(project) == []
+    tab.press("e")
+    tab.click(centroid(sure[0]))
+    tab.page.wait_for_function("() => window.fairyring.state.shapes.length === 1", timeout=120_000)
+    tab.saved()
+    [uid] = live_caps(project)
+    kept = kept_cap(project, uid)
+    assert kept is not None
+    assert (kept["prediction"], kept["centre_x"] is None) == (None, False)
+    assert likeness(kept["visible"][0], sure[0]) > 0.75
+    xs, ys = sure[1][::2], sure[1][1::2]
+    tab.drag((min(xs) - 1, min(ys) - 1), (max(xs) + 1, max(ys) + 1))
+    tab.wait_for("window.fairyring.state.shapes.length === 2")
+    tab.saved()
+    [another] = set(live_caps(project)) - {uid}
+    other = kept_cap(project, another)
+    assert other is not None
+    assert likeness(other["visible"][0], sure[1]) > 0.75
+    assert tab.state("tool") == "point"
+    tab.press("Control+z", "Control+z")
+    tab.saved()
+    assert live_caps(project) == []
