@@ -16,6 +16,7 @@ from fairyring.app.commands import (
     evaluate,
     images,
     imports,
+    info,
     network,
     project,
     review,
@@ -23,11 +24,13 @@ from fairyring.app.commands import (
     serve,
     synth,
 )
+from fairyring.app.commands.ending import Commands
 from fairyring.app.commands.version import print_version
 from fairyring.model.errors import FairyringError
 
 app = typer.Typer(
     name="fairyring",
+    cls=Commands,
     help="Correct mushroom labels in the browser, and know where every cap's centre is.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -41,6 +44,7 @@ app.command("export")(project.export)
 app.command("take-out")(images.take_out)
 app.command("put-back")(images.put_back)
 app.command("relink")(images.relink)
+app.command("info")(info.info)
 app.command("backup")(project.backup)
 app.command("restore")(project.restore)
 app.command("demo")(demo.demo)
@@ -59,19 +63,22 @@ app.add_typer(benchmarks.commands, name="bench")
 def _root(
     *,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Log what happens, on stderr.")] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show where in the program an unexpected error happened.")
+    ] = False,
     _version: Annotated[
         bool, typer.Option("--version", callback=print_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
     logging.basicConfig(
-        level=logging.INFO if verbose else logging.WARNING,
+        level=logging.INFO if verbose or debug else logging.WARNING,
         format="%(levelname)s %(name)s: %(message)s",
         stream=sys.stderr,
     )
 
 
 def main() -> None:
-    """Runs a command. Exit code 0: done, 1: failed, with a sentence on stderr, 2: wrong use."""
+    """Runs a command. Exit code 0: done, 1: failed, with a sentence on stderr, 2: wrong use, 130: stopped."""
     # PyTorch's threads would otherwise wait for each other by counting as fast as they can, which takes the
     # cores from whatever they wait for: on a busy machine training took fifteen times as long.
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
@@ -80,6 +87,3 @@ def main() -> None:
     except FairyringError as error:
         typer.echo(f"fairyring: {error}", err=True)
         sys.exit(1)
-    except KeyboardInterrupt:
-        typer.echo("fairyring: stopped.", err=True)
-        sys.exit(130)

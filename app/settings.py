@@ -52,7 +52,7 @@ def load_settings(
     file = file or project_folder / SETTINGS
     sources = (
         (str(file), _from_file(file)),
-        ("the environment", _from_environment(environment)),
+        *((variable, {name: environment[variable]}) for variable, name in _variables(environment).items()),
         ("the command line", {name: value for name, value in options.items() if value is not None}),
     )
     values: dict[str, Any] = {}
@@ -74,6 +74,7 @@ def _from_file(file: Path) -> dict[str, Any]:
         raise SettingsError(f"{file} is not valid TOML ({error}); correct or restore it.") from None
 
 
-def _from_environment(environment: Mapping[str, str]) -> dict[str, str]:
+def _variables(environment: Mapping[str, str]) -> dict[str, str]:
+    """The settings that are in the environment, by the names of their variables."""
     known = {f"{ENVIRONMENT_PREFIX}{name.upper()}": name for name in Settings.__struct_fields__}
-    return {name: environment[variable] for variable, name in known.items() if variable in environment}
+    return {variable: name for variable, name in known.items() if variable in environment}

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from fairyring.app.commands.files import named, write_json
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.model.contour.method_names import MethodName
 
 Labels = Annotated[Path, typer.Argument(metavar="COCO.json[.gz]", help="COCO file with checked outlines.")]
@@ -31,7 +31,7 @@ def contour(
 
     document = read_document(masks)
     chosen = read_priors(priors) if priors else DEFAULT
-    with shown_on_stderr() as progress, named(masks):
+    with steps_shown() as progress, named(masks):
         found = contour_document(document, method=method, priors=chosen, progress=progress)
     write_json(found, out)
     caps = [cap for cap in found["annotations"] if isinstance(cap, dict)]

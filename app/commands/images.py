@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.errors import FairyringError
@@ -32,7 +32,7 @@ def take_out(folder: ProjectFolder, names: Names, *, by: By = "command", as_json
     from fairyring.storage.project import open_project
     from fairyring.storage.taken_out import take_out as take
 
-    with open_project(folder) as project:
+    with open_project(folder) as project, steps_shown():
         taken = take(project, images_called(project, names), user=by)
     caps = sum(each.caps for each in taken)
     if as_json:
@@ -56,7 +56,7 @@ def put_back(
     from fairyring.storage.taken_out import put_back as put
     from fairyring.storage.taken_out import taken_out
 
-    with open_project(folder) as project:
+    with open_project(folder) as project, steps_shown():
         kept = taken_out(project)
         wanted = [each for each in kept if names is None or _is_called(each.file_name, names)]
         if not wanted:
@@ -82,7 +82,7 @@ def relink(
     from fairyring.storage.project import open_project
     from fairyring.storage.relinking import relink as look
 
-    with open_project(folder) as project, shown_on_stderr() as progress:
+    with open_project(folder) as project, steps_shown() as progress:
         relinked = look(project, places, progress=progress)
     for name in relinked.missing:
         typer.echo(f"{name} is in none of these folders.", err=True)

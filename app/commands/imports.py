@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fairyring.app.commands.ending import Stopped
 from fairyring.app.commands.import_report import print_report
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.light_and_form import FORMS, LightSource
@@ -71,7 +72,7 @@ def import_(
     known_caps = _known_caps(update=update, replace=replace, keep=keep)
 
     def take(as_: ImportAs | None) -> ImportReport:
-        with open_project(folder) as project, shown_on_stderr() as progress:
+        with open_project(folder) as project, steps_shown() as progress:
             report = import_paths(
                 project,
                 paths,
@@ -85,7 +86,10 @@ def import_(
                 progress=progress,
                 user=by,
             )
-            fill_in(project, progress=progress)
+            try:
+                fill_in(project, progress=progress)
+            except KeyboardInterrupt:
+                raise Stopped(_STORED.format(report=report)) from None
         return report
 
     try:
@@ -96,6 +100,12 @@ def import_(
     print_report(report, as_=as_, polygons=polygons, known_caps=known_caps, as_json=as_json)
     if report.useless:
         raise typer.Exit(1)
+
+
+_STORED = (
+    "Everything is stored: {report.images} images, {report.annotations} annotations, {report.predictions} "
+    "predictions. Whole outlines that are still missing are found by the next import, export or review."
+)
 
 
 def _asked(error: UnsaidError) -> ImportAs:

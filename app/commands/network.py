@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairyring.app.commands.files import write_json
 from fairyring.app.commands.images import images_called
-from fairyring.app.commands.progress import shown_on_stderr
-from fairyring.app.commands.project import ProjectFolder
+from fairyring.app.commands.progress import shown_on_stderr, steps_shown
 from fairyring.app.commands.rows import AsJson
 from fairyring.app.commands.stopping import INTERRUPTED, stopped_by_sigterm
 from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from fairyring.model.predict.passes import Pass
 
 
@@ -133,8 +135,19 @@ def _validated(figures: dict[str, Any]) -> str:
 
 
 def predict(
-    folder: ProjectFolder,
+    sources: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="PROJECT|PHOTOS...", help="A project's folder; with --out photos, or folders of them."
+        ),
+    ],
     *,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.json", help="Write what is seen in photos that belong to no project, as COCO."
+        ),
+    ] = None,
     weights: Annotated[
         Path | None, typer.Option(help="Else the newest in PROJECT/weights, else the shipped ones.")
     ] = None,
@@ -151,16 +164,32 @@ def predict(
     redo: Annotated[bool, typer.Option(help="Predict images anew that these weights have seen.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Predict the caps of a project's photos, with their whole outlines and centres.
+    """Predict the caps of a project's photos, or of others, with their whole outlines and centres.
 
     Every image is stored as it comes: after Ctrl+C or SIGTERM (exit code 130), the same command goes on.
     Annotations are never touched. A photo that cannot be read is reported and passed over.
 
     Example: `fairyring predict beds --images "bed_top_*" --weights run/weights.safetensors`
+
+    Example: `fairyring predict photos/ --out centres.json`
     """
     from fairyring.storage.project import open_project
 
-    with open_project(folder) as project:
+    if out is not None:
+        _predict_photos(
+            sources,
+            out,
+            weights=weights,
+            device=device,
+            least_score=least_score,
+            diameter=diameter,
+            fast=fast,
+            as_json=as_json,
+        )
+        return
+    if len(sources) > 1:
+        raise typer.BadParameter("give one project; photos need --out FILE.json", param_hint="PROJECT")
+    with open_project(sources[0]) as project:
         wanted = images_called(project, [images])
         # Loading torch takes a while, which a wrong name need not wait for.
         from fairyring.app.jobs.predicting import network_of, predict_images
@@ -189,6 +218,43 @@ def predict(
         typer.echo(json.dumps(figures | {"problems": len(outcome.problems)}))
     else:
         typer.echo(f"{network.name}: {outcome}", err=True)
+
+
+def _predict_photos(
+    sources: Sequence[Path],
+    out: Path,
+    *,
+    weights: Path | None,
+    device: Device,
+    least_score: float,
+    diameter: float | None,
+    fast: bool,
+    as_json: bool,
+) -> None:
+    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.predicting_photos import photos_at, predict_photos
+    from fairyring.model.predict.shipped import SHIPPED
+
+    photos = photos_at(sources)
+    network = network_of(
+        weights or SHIPPED,
+        device=device,
+        least_score=least_score,
+        passes=passes_of(fast=fast),
+        diameter=diameter,
+    )
+    with steps_shown() as progress:
+        document, problems = predict_photos(photos, network, progress=progress)
+    for problem in problems:
+        typer.echo(problem, err=True)
+    if not document["images"]:
+        raise FairyringError(f"No photo could be read, and {out} was not written.")
+    write_json(document, out)
+    figures = {"images": len(document["images"]), "caps": len(document["annotations"])}
+    if as_json:
+        typer.echo(json.dumps(figures | {"problems": len(problems)}))
+    else:
+        typer.echo(f"{out}: {figures['caps']} caps in {figures['images']} photos", err=True)
 
 
 def passes_of(*, fast: bool) -> tuple[Pass, ...]:

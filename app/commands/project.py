@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.errors import FileError
 from fairyring.model.whole_files import written_whole
@@ -75,7 +75,7 @@ def export(
     which = only or (Only.annotated if run is None else Only.predicted)
     if results is not None and which is not Only.predicted:
         raise typer.BadParameter("--results are predictions; give --only predicted or --run.")
-    with open_project(folder) as project, shown_on_stderr() as progress:
+    with open_project(folder) as project, steps_shown() as progress:
         fill_in(project, progress=progress)
         with _written(results) as file:
             report = export_coco(
@@ -144,7 +144,7 @@ def backup(
     from fairyring.storage.backup import back_up
     from fairyring.storage.project import open_project
 
-    with open_project(folder) as project, shown_on_stderr() as progress:
+    with open_project(folder) as project, steps_shown() as progress:
         made = back_up(project, out, progress=progress)
     for remark in made.remarks:
         typer.echo(remark, err=True)
@@ -163,7 +163,7 @@ def restore(
     """
     from fairyring.storage.backup import restore as restore_
 
-    with shown_on_stderr() as progress:
+    with steps_shown() as progress:
         made = restore_(backup, folder, progress=progress)
     _print_backup(made, f"{folder} holds", as_json=as_json)
 

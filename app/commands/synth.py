@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.model.light_and_form import LightSource
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def synth(
 
     settings = _settings(preset, config, light=light, form=form)
     count = count or (480 if preset == "paper" else 24)
-    with shown_on_stderr() as progress:
+    with steps_shown() as progress:
         rendered = write_beds(
             out, settings, count=count, seed=seed, jobs=jobs or _cores(), resume=resume, progress=progress
         )

@@ -138,7 +138,7 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new, statistics = _predictions_of(network, project, image, compute)
+            new, statistics = predictions_in(network, project.originals.path_of(image), image, compute)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
@@ -182,11 +182,11 @@ class _Run:
         keep_statistics(connection, image_id, statistics)
 
 
-def _predictions_of(
-    network: Network, project: Project, image: Image, compute: Run
+def predictions_in(
+    network: Network, path: Path, image: Image, compute: Run = here
 ) -> tuple[list[NewPrediction], dict[str, float]]:
-    """What the network sees in a photo, and the statistics by which its caps were fitted."""
-    rgb = np.ascontiguousarray(photo.read(project.originals.path_of(image))[:, :, ::-1])
+    """What the network sees in the photo at ``path``, and the statistics by which its caps were fitted."""
+    rgb = np.ascontiguousarray(photo.read(path)[:, :, ::-1])
     found = [
         (detection.score, outline)
         for detection in detect_at_its_scale(network.predictor, rgb, diameter=network.diameter)

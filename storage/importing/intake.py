@@ -102,8 +102,15 @@ def take_in(
         try:
             take()
         except FairyringError as error:
-            taking.problems.append(Problem(file, where, str(error).removeprefix(f"{file}: ")))
+            taking.problems.append(Problem(file, where, _without_path(str(error), file)))
     return _taken(taking, sources)
+
+
+def _without_path(sentence: str, file: str) -> str:
+    """A sentence about a file that is named before it anyway."""
+    if sentence.startswith(f"{file} "):
+        return f"It {sentence.removeprefix(f'{file} ')}"
+    return sentence.removeprefix(f"{file}: ")
 
 
 class _Taking(Struct, kw_only=True):

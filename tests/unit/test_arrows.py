@@ -27,7 +27,7 @@ DRAWINGS = {
         protocol  addresses  settings  editor_commands  static_folder
     """,
     "storage": """
-        importing  exporting  backup
+        importing  exporting  backup  about
         taken_out  relinking
         journal  formats  migrations  image_history
         statuses  exported_photos

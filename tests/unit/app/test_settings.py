@@ -34,5 +34,5 @@ def test_a_mistake_names_the_file(tmp_path: Path, line: str) -> None:
 
 
 def test_a_mistake_in_the_environment_says_so() -> None:
-    with pytest.raises(SettingsError, match="the environment"):
+    with pytest.raises(SettingsError, match="FAIRYRING_PORT"):
         load_settings(Path("nowhere"), environment={"FAIRYRING_PORT": "http"})

@@ -1,0 +1,109 @@
+"""How commands end that are stopped, or that meet an error nobody foresaw."""
+
+from __future__ import annotations
+
+import platform
+import signal
+import sys
+import tempfile
+import threading
+import traceback
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from fairyring.app.commands.stopping import INTERRUPTED
+from fairyring.app.commands.version import version
+from fairyring.model.errors import FairyringError
+
+BEGIN_ANEW = "Nothing was written; the same command begins anew."
+UNCHANGED = "Nothing was changed; the same command begins anew."
+AFTER: Mapping[str, str] = MappingProxyType(
+    {
+        "init": "A folder may be left that is no project yet; delete it and give the same command again.",
+        "import": UNCHANGED,
+        "take-out": UNCHANGED,
+        "put-back": UNCHANGED,
+        "relink": UNCHANGED,
+        "demo": "What was made is kept; the same command goes on.",
+        "synth": "The beds rendered so far are kept; the same command with --resume goes on.",
+        "serve": "The project is closed; every edit that was said to be saved is on disk.",
+        "info": "Nothing is lost; the same command begins anew.",
+    }
+)
+"""What is kept when a command is stopped, and what to do next; of all others ``BEGIN_ANEW`` holds."""
+
+
+class Stopped(KeyboardInterrupt):
+    """A stop that knows better than ``AFTER`` what was kept: its text says so."""
+
+
+class Commands(TyperGroup):
+    """Commands that end with a sentence, whatever ends them."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Runs the command that was asked for."""
+        try:
+            with _sigterm_as_interrupt():
+                return super().invoke(ctx)
+        except KeyboardInterrupt as stop:
+            said = str(stop) if isinstance(stop, Stopped) else AFTER.get(ctx.invoked_subcommand, BEGIN_ANEW)
+            typer.echo(f"fairyring: stopped. {said}", err=True)
+            raise typer.Exit(INTERRUPTED) from None
+        except (FairyringError, typer.Exit, typer.Abort, BrokenPipeError):
+            raise
+        except Exception as error:
+            if _is_usage(error) or ctx.params.get("debug"):
+                raise
+            typer.echo(_sentence_on(error), err=True)
+            raise typer.Exit(1) from error
+
+
+@contextmanager
+def _sigterm_as_interrupt() -> Iterator[None]:
+    """Makes SIGTERM act like Ctrl+C; a command may handle it otherwise meanwhile."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _is_usage(error: Exception) -> bool:
+    """Whether it is about how the command was written, which is shown by whoever runs it."""
+    return any("ClickException" in kind.__name__ for kind in type(error).__mro__)
+
+
+def _sentence_on(error: Exception) -> str:
+    """What is said of an error nobody foresaw, once all about it is in a file to report it with."""
+    what = f"An error in Fairyring itself ended this ({type(error).__name__}: {error!s:.200})."
+    try:
+        report = _report_on(error)
+    except OSError:
+        return f"fairyring: {what} Say --debug after fairyring to see where, and report that."
+    return f"fairyring: {what} Please report it with {report}, or see it with: fairyring --debug …"
+
+
+def _report_on(error: Exception) -> Path:
+    """A file with what is needed to mend an error; it holds no file of the person's but their paths."""
+    lines = [
+        f"Fairyring {version()}, Python {platform.python_version()}, {platform.platform()}",
+        " ".join(sys.argv),
+        "",
+        *traceback.format_exception(error),
+    ]
+    with tempfile.NamedTemporaryFile("w", prefix="fairyring-error-", suffix=".txt", delete=False) as file:
+        file.write("\n".join(lines))
+    return Path(file.name)
