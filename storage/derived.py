@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from msgspec import Struct
-from sqlalchemy import Connection, and_, select, union, update
+from sqlalchemy import Connection, and_, bindparam, select, union, update
 
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.db.counters import recount
@@ -30,6 +30,27 @@ _ANNOTATION_LACKS = and_(
     annotation.c.whole.is_(None), annotation.c.refusal.is_(None), annotation.c.deleted == 0
 )
 _PREDICTION_LACKS = and_(prediction.c.whole.is_(None), prediction.c.refusal.is_(None))
+
+
+_STORE_ANNOTATION = (
+    update(annotation)
+    .where(
+        annotation.c.uid == bindparam("which"),
+        annotation.c.image == bindparam("of_image"),
+        annotation.c.revision == bindparam("known"),
+        _ANNOTATION_LACKS,
+    )
+    .values({name: bindparam(name) for name in values_of_annotation_fit(Fit())})
+)
+_STORE_PREDICTION = (
+    update(prediction)
+    .where(
+        prediction.c.id == bindparam("which"),
+        prediction.c.image == bindparam("of_image"),
+        _PREDICTION_LACKS,
+    )
+    .values({name: bindparam(name) for name in values_of_fit(Fit())})
+)
 
 
 def images_with_underived(connection: Connection) -> list[int]:
@@ -67,21 +88,19 @@ def store_derived(
     ``annotations`` are named by uid and revision: the fit of one that has been edited since is dropped.
     ``predictions`` are named by id; their outlines and scores stay.
     """
+    of_annotations = [
+        {"which": uid, "known": revision, "of_image": image_id} | values_of_annotation_fit(_or_refused(fit))
+        for (uid, revision), fit in annotations.items()
+    ]
+    of_predictions = [
+        {"which": number, "of_image": image_id} | values_of_fit(_or_refused(fit))
+        for number, fit in predictions.items()
+    ]
     stored = 0
-    for (uid, revision), fit in annotations.items():
-        statement = update(annotation).where(
-            annotation.c.uid == uid,
-            annotation.c.image == image_id,
-            annotation.c.revision == revision,
-            _ANNOTATION_LACKS,
-        )
-        values = values_of_annotation_fit(_or_refused(fit))
-        stored += connection.execute(statement.values(**values)).rowcount
-    for number, fit in predictions.items():
-        statement = update(prediction).where(
-            prediction.c.id == number, prediction.c.image == image_id, _PREDICTION_LACKS
-        )
-        stored += connection.execute(statement.values(**values_of_fit(_or_refused(fit)))).rowcount
+    if of_annotations:
+        stored += connection.execute(_STORE_ANNOTATION, of_annotations).rowcount
+    if of_predictions:
+        stored += connection.execute(_STORE_PREDICTION, of_predictions).rowcount
     if stored:
         recount(connection, [image_id])
     return stored

@@ -23,7 +23,7 @@ EVERY_S = 5.0
 
 @contextmanager
 def shown_on_stderr(*, silent: bool = False) -> Iterator[Progress]:
-    """Shows a bar with the time left while the block runs; without a terminal lines; nothing if ``silent``."""
+    """Shows a bar with the time left while the block runs, without a terminal lines; ``silent``: nothing."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -16,7 +17,12 @@ Batch = TypeVar("Batch")
 
 def single_caps(batch: Batch, *, caps: int) -> list[Batch]:
     """The batch of n = ``caps`` caps as n batches of one."""
-    return [_each(lambda array, at=at: array[at : at + 1], [batch]) for at in range(caps)]
+    whole: Any = batch
+    if not is_dataclass(type(batch)):
+        return [whole[at : at + 1] for at in range(caps)]
+    make: Any = type(batch)
+    parts = [single_caps(getattr(batch, name), caps=caps) for name in _names_of(make)]
+    return [make(*each) for each in zip(*parts, strict=True)]
 
 
 def first_caps(batch: Batch, *, caps: int) -> Batch:
@@ -31,7 +37,13 @@ def joined(batches: Sequence[Batch]) -> Batch:
 
 def _each(work: Callable[..., np.ndarray], batches: Sequence[Any]) -> Any:
     """A batch each of whose arrays is made by ``work`` of the arrays in that place."""
-    if not is_dataclass(batches[0]):
+    if not is_dataclass(type(batches[0])):
         return work(*batches)
-    names = [field.name for field in fields(batches[0])]
-    return type(batches[0])(*(_each(work, [getattr(batch, name) for batch in batches]) for name in names))
+    kind: Any = type(batches[0])
+    return kind(*(_each(work, [getattr(batch, name) for batch in batches]) for name in _names_of(kind)))
+
+
+@cache
+def _names_of(kind: type[Any]) -> tuple[str, ...]:
+    """The names of a dataclass's fields."""
+    return tuple(field.name for field in fields(kind))
