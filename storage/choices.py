@@ -56,6 +56,16 @@ class ExportFormat(StrEnum):
     coco = "coco"
 
 
+class ExportedPhotos(Enum):
+    """What becomes of the photos of an export."""
+
+    copied = "copied"
+    linked = "linked"
+    """Symbolic links to where they lie; one that is turned by EXIF is copied all the same."""
+    none = "none"
+    """Labels alone, also of photos that are gone."""
+
+
 class Only(StrEnum):
     """Which images an export holds."""
 

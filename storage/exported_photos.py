@@ -1,4 +1,4 @@
-"""Copies photos into an export: as they are, or upright where EXIF turns them."""
+"""Writes photos into an export: as they are, or upright where EXIF turns them; or links to them."""
 
 from __future__ import annotations
 
@@ -9,22 +9,32 @@ from pathlib import Path
 import cv2
 
 from fairyring.model.photo import probe, read
-from fairyring.model.progress import Progress
+from fairyring.model.progress import Progress, silent
+from fairyring.storage.choices import ExportedPhotos
 from fairyring.storage.errors import StoreError
-from fairyring.storage.originals import PhotoChangedError
+from fairyring.storage.originals import PhotoChangedError, PhotoGoneError
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
 
 JPEG_QUALITY = 97
 
 
-def copy_photos(
-    project: Project, images: list[Image], folder: Path, progress: Progress
+def write_photos(
+    project: Project,
+    images: list[Image],
+    folder: Path,
+    *,
+    photos: ExportedPhotos = ExportedPhotos.copied,
+    skip_missing: bool = False,
+    progress: Progress = silent,
 ) -> tuple[dict[int, str], list[str]]:
-    """The SHA-256 of each copied photo as it was written, by its image; and a sentence about each other one.
+    """The SHA-256 of each photo as it was written, by its image; and a sentence about each other one.
 
-    Raises StoreError where there are some, and none could be copied.
+    ``skip_missing`` leaves out images whose photo is gone. Raises StoreError where one is gone otherwise, or
+    where there are some and none could be written.
     """
+    if photos is ExportedPhotos.none:
+        return {image.id: image.sha256 for image in images}, []
     folder.mkdir()
     copied: dict[int, str] = {}
     left_out: list[str] = []
@@ -33,8 +43,17 @@ def copy_photos(
         try:
             target = folder / image.file_name
             target.parent.mkdir(parents=True, exist_ok=True)
-            copied[image.id] = _copy(project.originals.path_of(image), target, image.sha256)
+            source = project.originals.path_of(image)
+            if photos is ExportedPhotos.linked and probe(source).orientation == 1:
+                target.symlink_to(source.resolve())
+                copied[image.id] = image.sha256
+            else:
+                copied[image.id] = _copy(source, target, image.sha256)
         except PhotoChangedError as error:
+            left_out.append(str(error))
+        except PhotoGoneError as error:
+            if not skip_missing:
+                raise StoreError(f"{error} Or leave out such images: --skip-missing.") from error
             left_out.append(str(error))
     if left_out and not copied:
         raise StoreError(f"Nothing was exported: {left_out[0]}")

@@ -11,11 +11,11 @@ from msgspec import Struct
 from sqlalchemy import Connection, select
 
 from fairyring.model.progress import Progress, silent
-from fairyring.storage.choices import Only
+from fairyring.storage.choices import ExportedPhotos, Only
 from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
-from fairyring.storage.exported_photos import copy_photos
+from fairyring.storage.exported_photos import write_photos
 from fairyring.storage.formats.coco_results import result_entry, write_results
 from fairyring.storage.formats.coco_writing import (
     annotation_entry,
@@ -69,6 +69,8 @@ def export_coco(
     with_ignored: bool = False,
     license_: str | None = None,
     results: BinaryIO | None = None,
+    photos: ExportedPhotos = ExportedPhotos.copied,
+    skip_missing: bool = False,
     progress: Progress = silent,
 ) -> ExportReport:
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
@@ -86,6 +88,8 @@ def export_coco(
         with_ignored: keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``.
         license_: of the whole data set.
         results: an open file for the predictions as COCO's list of results.
+        photos: whether they are copied, linked or left.
+        skip_missing: leaves out images whose photo is gone.
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 
     Raises:
@@ -96,7 +100,14 @@ def export_coco(
         wanted = Wanted(
             only=only, run=None if run is None else require_run(connection, run), with_ignored=with_ignored
         )
-        hashes, left_out = copy_photos(project, _images(connection, wanted), folder / "images", progress)
+        hashes, left_out = write_photos(
+            project,
+            _images(connection, wanted),
+            folder / "images",
+            photos=photos,
+            skip_missing=skip_missing,
+            progress=progress,
+        )
         images = [image for image in _images(connection, wanted) if image.id in hashes]
         runs = _runs(connection, images, wanted)
         categories = connection.execute(_CATEGORIES).all()

@@ -14,7 +14,7 @@ from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.rows import AsJson
 from fairyring.model.errors import FileError
 from fairyring.model.whole_files import written_whole
-from fairyring.storage.choices import ExportFormat, Only
+from fairyring.storage.choices import ExportedPhotos, ExportFormat, Only
 from fairyring.storage.folder import IMAGES, WEIGHTS
 
 if TYPE_CHECKING:
@@ -59,6 +59,11 @@ def export(
     license_: Annotated[
         str | None, typer.Option("--license", metavar="NAME", help="Licence of the data; else the photos'.")
     ] = None,
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out images whose photo is gone, and list them.")
+    ] = False,
+    labels_only: Annotated[bool, typer.Option("--labels-only", help="Write no photos.")] = False,
+    link: Annotated[bool, typer.Option("--link", help="Link photos in place of copying them.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Write a data set others can load, without images whose photo is no longer the one imported.
@@ -72,6 +77,9 @@ def export(
     assert format_ is ExportFormat.coco
     if run is not None and only not in (None, Only.predicted):
         raise typer.BadParameter(f"--run writes predictions; --only {only} does not.")
+    if labels_only and link:
+        raise typer.BadParameter("give one of --labels-only and --link at most")
+    photos = ExportedPhotos.linked if link else ExportedPhotos.copied
     which = only or (Only.annotated if run is None else Only.predicted)
     if results is not None and which is not Only.predicted:
         raise typer.BadParameter("--results are predictions; give --only predicted or --run.")
@@ -86,6 +94,8 @@ def export(
                 with_ignored=with_ignored,
                 license_=license_,
                 results=file,
+                photos=ExportedPhotos.none if labels_only else photos,
+                skip_missing=skip_missing,
                 progress=progress,
             )
     for sentence in report.left_out:
