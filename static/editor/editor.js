@@ -24,7 +24,7 @@ import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
 import { openOutbox } from "./sync/tab_outbox.js";
 import { Transport } from "./sync/transport.js";
-import { firstImage, keepPlace } from "./ui/address.js";
+import { firstAddress, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
 import { noticesIn } from "./ui/notices.js";
@@ -72,7 +72,7 @@ export class Editor {
     const send = (/** @type {ToServer} */ message) => this.#send(message);
     const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
     this.#transport = new Transport(url, {
-      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? firstImage() }),
+      hello: (token) => ({ type: "hello", token, image: state.image?.id ?? firstAddress()?.image ?? null }),
       message: (message) => this.#receiveInOrder(message),
       state: () => this.#connectionChanged(),
       closed: (code, reason) => this.#closed(code, reason),
@@ -185,7 +185,7 @@ export class Editor {
     });
     bringFocusBack(host);
     showProgress(state);
-    keepPlace(state, (image) => this.#open(image, null));
+    keepPlace(state, (image, cap) => this.#open(image, cap));
     state.signals.selection.listen(() => this.#tellSelection());
     state.signals.nudge.listen(() => this.#progress());
     new ResizeObserver(([entry]) => state.viewport.resize(entry.contentRect)).observe(host);

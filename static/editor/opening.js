@@ -4,7 +4,7 @@
  * @module
  */
 
-import { putInAddress } from "./ui/address.js";
+import { firstAddress, putCapInAddress, putInAddress } from "./ui/address.js";
 
 /** @typedef {import("./input/toolbox.js").Toolbox} Toolbox */
 /** @typedef {import("./protocol.js").Show} Show */
@@ -53,11 +53,14 @@ export class Opening {
     this.#asked = null;
     const { image } = contents;
     const another = image.id !== state.image?.id;
+    // The cap that a link leads to.
+    const first = state.image ? null : firstAddress();
     if (another) this.#leave();
     liveFit.forget();
     sync.open(image, contents.annotations, contents.unchecked);
     state.open(contents);
-    if (select) state.select([select], { reveal: true });
+    const cap = select ?? (first?.image === image.id ? first.cap : null);
+    if (cap) state.select([cap], { reveal: true });
     if (another) this.#arrive(image.id);
     photos
       .open(photo, image)
@@ -78,6 +81,7 @@ export class Opening {
   /** What was half drawn on the image is there again. @type {(image: number) => void} */
   #arrive(image) {
     putInAddress(image);
+    putCapInAddress(this.#parts.state);
     this.#parts.toolbox.tool.begin?.();
     void this.#parts.drawings.open(image).then((drawn) => {
       if (drawn) this.#parts.say(HALF_DRAWN, "info");

@@ -75,6 +75,27 @@ def test_a_link_leads_to_its_image(tab: Tab) -> None:
     assert other.errors == []
 
 
+def test_a_link_leads_to_its_cap_and_so_does_a_reload(tab: Tab) -> None:
+    tab.open("bed_2.png")
+    uid = tab.select((150, 150))
+    link = tab.page.url
+    assert link.endswith(f"#/image/2/cap/{uid}")
+    page = tab.page.context.new_page()
+    page.goto(link)
+    other = Tab(page)
+    other.wait_for(ONLINE)
+    other.wait_for("window.fairyring.state.selection.length === 1")
+    assert (other.state("image.file_name"), other.state("selection")) == ("bed_2.png", [uid])
+    other.press("Escape")
+    assert page.url.endswith("#/image/2")
+    assert other.errors == []
+    page.close()
+    tab.page.bring_to_front()
+    tab.page.reload()
+    tab.wait_for(ONLINE)
+    tab.wait_for(f"window.fairyring.state.selection[0] === {uid!r}")
+
+
 def test_a_whole_photo_stays_whole_in_another_window(tab: Tab) -> None:
     for size in ((1000, 600), (1600, 1000), (1100, 1000)):
         tab.page.set_viewport_size({"width": size[0], "height": size[1]})
