@@ -21,6 +21,8 @@ class Command(Struct, frozen=True, forbid_unknown_fields=True):
     words: str
     label: str = ""
     """What a button says, where that is not ``words``."""
+    hint: str = ""
+    """What is said of a tool while it is in hand."""
 
     @property
     def title(self) -> str:

@@ -154,7 +154,7 @@ def several_facts(annotations: Sequence[Annotation], predictions: Sequence[Predi
         facts.append(("Diameter", f"{fmean(diameters):.1f} px on average"))
     if predictions:
         facts.append(("Score", f"{fmean(p.score for p in predictions):.3f} on average"))
-    commands = ("accept",) if predictions and not annotations else ()
+    commands = ("accept",) if predictions else ()
     title = element("strong", f"{len(annotations) + len(predictions)} selected")
     return _inspector(title, facts=facts, commands=(*commands, "merge", "doubtful", "ignored", "delete"))
 

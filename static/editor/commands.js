@@ -2,7 +2,7 @@
  * What a person can do by key or button, and the layers of the picture: names, words and keys, once for
  * the keyboard, the key list and the panel. What a command does stands in `input/actions.js`.
  *
- * `words` are for the key list, `label` is for a button where that has other words. A key is written as the
+ * `words` are for the key list, `label` is for a button where that has other words, `hint` is shown while a tool is in hand. A key is written as the
  * key list shows it. From its first brace on this is JSON: `app/editor_commands.py` reads it too.
  *
  * @module
@@ -13,20 +13,63 @@ export default {
     {
       "title": "Tools",
       "commands": [
-        { "name": "select", "keys": ["V"], "words": "Select and edit", "label": "Select" },
-        { "name": "point", "keys": ["E"], "words": "Take the cap that the network sees under the pointer", "label": "Point" },
-        { "name": "polygon", "keys": ["W"], "words": "Draw a visible outline", "label": "Outline" },
-        { "name": "circle", "keys": ["C"], "words": "Drag out a circle from its centre", "label": "Circle" },
+        {
+          "name": "select",
+          "keys": ["V"],
+          "words": "Select and edit",
+          "label": "Select",
+          "hint": "Drag a vertex, an edge or the cap · Ctrl-drag redraws a rim · Shift-drag selects"
+        },
+        {
+          "name": "point",
+          "keys": ["E"],
+          "words": "Take the cap that the network sees under the pointer",
+          "label": "Point",
+          "hint": "Click takes the cap that is shown · Shift-click adds, Alt-click takes away · drag a box"
+        },
+        {
+          "name": "polygon",
+          "keys": ["W"],
+          "words": "Draw a visible outline",
+          "label": "Outline",
+          "hint": "Click points or draw freehand · Enter, a double click or the first point closes"
+        },
+        {
+          "name": "circle",
+          "keys": ["C"],
+          "words": "Drag out a circle from its centre",
+          "label": "Circle",
+          "hint": "Drag from the centre outwards · T draws it to the rim"
+        },
         {
           "name": "rim_points",
           "keys": ["O"],
           "words": "A circle by three points of its rim, an ellipse by five and more",
-          "label": "Points"
+          "label": "Points",
+          "hint": "Click points of the rim: three a circle, five an ellipse · Enter puts it down"
         },
-        { "name": "rim", "keys": ["R"], "words": "Redraw a stretch of a rim, add to a cap, cut from it", "label": "Rim" },
-        { "name": "split", "keys": ["K"], "words": "Make two caps of one with a stroke across it", "label": "Split" },
+        {
+          "name": "rim",
+          "keys": ["R"],
+          "words": "Redraw a stretch of a rim, add to a cap, cut from it",
+          "label": "Rim",
+          "hint": "One stroke from rim to rim: outside adds, inside cuts · Alt takes the other side"
+        },
+        {
+          "name": "split",
+          "keys": ["K"],
+          "words": "Make two caps of one with a stroke across it",
+          "label": "Split",
+          "hint": "One stroke across a cap, from rim to rim"
+        },
         { "name": "part", "keys": ["Shift+W"], "words": "Draw another part of the selected cap" },
-        { "name": "pan", "keys": ["G"], "words": "Move the view", "label": "Pan" },
+        {
+          "name": "pan",
+          "keys": ["G"],
+          "words": "Move the view",
+          "label": "Pan",
+          "hint": "Drag moves the view · the wheel zooms"
+        },
         { "name": "finish", "keys": ["Enter"], "words": "Close the outline being drawn, take the circle or ellipse" },
         { "name": "cancel", "keys": ["Esc"], "words": "Drop what is half done (Ctrl+Z brings it back), then deselect" },
         {

@@ -27,6 +27,7 @@ import { Transport } from "./sync/transport.js";
 import { firstAddress, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
+import { hintIn } from "./ui/hint.js";
 import { noticesIn } from "./ui/notices.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
 import { showProgress } from "./ui/progress.js";
@@ -112,6 +113,7 @@ export class Editor {
     });
     const tool = () => this.#toolbox.tool;
     const pressed = pressedButtons(() => tool().name);
+    const hint = hintIn(host);
     const pointer = new Pointer(host, state, {
       tool,
       caused: (event, kind) => this.#frame.causedBy(event, kind),
@@ -119,6 +121,7 @@ export class Editor {
     this.#toolbox = new Toolbox(state, {
       changed: () => {
         pressed();
+        hint(tool().name);
         pointer.letGo();
         pointer.cursor();
       },
@@ -136,6 +139,7 @@ export class Editor {
       drawings: this.#drawings,
       say: this.#say,
     });
+    hint(tool().name);
     this.#perform = performer({
       state,
       host,

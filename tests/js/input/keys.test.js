@@ -95,3 +95,11 @@ test("Space and H do something as long as they are held, unless they are part of
   assert.equal(heldBy(chord({ key: "h", ctrlKey: true })), null);
   assert.equal(heldBy(chord({ key: "a" })), null);
 });
+
+test("every tool says what it does while it is in hand", () => {
+  const hints = COMMANDS.filter((command) => "hint" in command).map(({ name }) => name);
+  assert.deepEqual(
+    hints.sort(),
+    ["circle", "pan", "point", "polygon", "rim", "rim_points", "select", "split"],
+  );
+});

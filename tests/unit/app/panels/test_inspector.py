@@ -28,7 +28,7 @@ def test_of_several_caps_it_says_how_many_of_what_they_are_and_their_means() -> 
 
 
 def test_it_offers_what_can_be_done_to_all_of_them() -> None:
-    assert 'data-fairyring-command="accept"' in several_facts([], SAID).html
-    assert 'data-fairyring-command="accept"' not in several_facts([MARKED], SAID).html
+    assert 'data-fairyring-command="accept"' in several_facts([MARKED], SAID).html
+    assert 'data-fairyring-command="accept"' not in several_facts([MARKED, MARKED], []).html
     for command in ("merge", "doubtful", "ignored", "delete"):
         assert f'data-fairyring-command="{command}"' in several_facts([MARKED], SAID).html
