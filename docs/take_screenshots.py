@@ -30,7 +30,7 @@ def main() -> None:
 
 def _walk(tab: Tab) -> None:
     _take(tab, "image")
-    tab.press("Shift+a")
+    tab.accept_all()
     tab.saved()
     caps = [cap for cap in tab.state("shapes") if len(cap["cap"]["visible"]) == 1]
     caps.sort(key=lambda cap: -len(cap["cap"]["visible"][0]))

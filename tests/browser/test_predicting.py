@@ -53,7 +53,7 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     tab.page.get_by_role("button", name="Predict this image").click()
     tab.wait_for("window.fairyring.state.predictions.length > 0")
     tab.page.get_by_text("1 image predicted").first.wait_for()
-    tab.press("Shift+a")
+    tab.accept_all()
     tab.saved()
     accepted = tab.state("shapes")
     assert accepted
@@ -83,7 +83,7 @@ def test_what_was_accepted_is_not_offered_again_by_a_later_run(
     tab.page.get_by_role("button", name="Predict this image").click()
     tab.wait_for("window.fairyring.state.predictions.length > 0")
     seen = tab.state("predictions")
-    tab.press("Shift+a")
+    tab.accept_all()
     tab.saved()
     tab.page.get_by_text("1 image predicted").first.wait_for()
 
@@ -92,6 +92,6 @@ def test_what_was_accepted_is_not_offered_again_by_a_later_run(
     tab.page.reload()
     tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
     assert tab.state("predictions") == []
-    tab.press("Shift+a")
+    tab.accept_all()
     tab.saved()
     assert len(tab.state("shapes")) == len(seen)
