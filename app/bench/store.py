@@ -19,6 +19,7 @@ from fairyring.app.bench.browser.leafing import leaf, measured_tab
 from fairyring.app.bench.browser.tab import chromium
 from fairyring.app.bench.plain import synced_inserts
 from fairyring.app.bench.projects import Bed, write_labels
+from fairyring.app.bench.round_trip import round_trip_rows
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
 from fairyring.app.caps.whole_outlines import derive_edits
@@ -44,6 +45,7 @@ def store_rows(*, quick: bool = False) -> list[Row]:
                 _open(project, [contents.image.id for contents in opened]),
                 _edit(project, opened, Path(folder)),
             ]
+        rows += round_trip_rows(Path(folder), quick=quick)
         return rows + _leaf_through(Path(folder) / "project", leafed)
 
 
@@ -62,7 +64,7 @@ def _import(project: Project, labels: Path) -> Row:
     taken = time.perf_counter() - start
     assert report.annotations == count, report.problems
     return row(
-        "import of COCO, validation included (reference: json.loads)",
+        "import of COCO, validation included, whole outlines not (reference: json.loads)",
         count / taken,
         unit="annotations/s",
         target=5000,
