@@ -26,6 +26,7 @@ from fairyring.model.network.weights import load_weights
 from fairyring.model.predict.shipped import RECIPE, SHIPPED
 from fairyring.model.progress import Progress
 from fairyring.model.train.checkpoint import CheckpointError
+from fairyring.model.train.circumstances import KEY
 from fairyring.model.train.loop import CARD, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.storage.folder import is_project
@@ -233,7 +234,8 @@ def continuation_of(out: Path, asked: Asked) -> Start:
             f"The training in {out} has another recipe ({', '.join(changed)}); "
             "resume without --config, --iterations and --seed, or train into a new folder."
         )
-    card.pop("images", None)
+    for key in ("images", KEY):
+        card.pop(key, None)
     return Start(recipe=recipe, base=None, notes=card)
 
 

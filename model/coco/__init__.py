@@ -13,7 +13,8 @@ Our own keys of an annotation, beside COCO's:
 ``segmentation_of``
     ``"mark"`` where the visible outline is unknown and the polygons were drawn from the mark.
 ``amodal_segmentation``
-    The whole outline as a polygon; one alone, without circle or ellipse, is taken as a marked polygon.
+    The whole outline as a polygon, united with what is visible; one alone, without circle or ellipse, is
+    taken as a marked polygon.
 ``doubt``, ``ignored``, ``ignore``, ``order``, ``uid``
     Flags, overlap order, and the annotation's own number.
 ``refusal``

@@ -2,7 +2,8 @@
 
 In the output folder: ``last.pt`` to resume from, ``best.safetensors`` by the validation's AP,
 ``weights.safetensors`` at the end (the best, or the last where nothing was validated), ``log.jsonl``,
-``curves.png``, ``run.json`` with the recipe, and ``labels.json`` with what was learnt from.
+``curves.png``, ``run.json`` with the recipe, versions, device and duration, and ``labels.json`` with what was
+learnt from.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import save_weights
 from fairyring.model.train import log as train_log
 from fairyring.model.train.checkpoint import load_checkpoint, save_checkpoint
+from fairyring.model.train.circumstances import Circumstances
 from fairyring.model.train.data import Example
 from fairyring.model.train.distributed import Process, together
 from fairyring.model.train.loading import batches_of
@@ -124,7 +126,7 @@ def train(
         if not any(example.caps for example in checks):
             checks = []
         plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, process=process, report=report)
-        _prepare(state, plan, labels, resume=resume)
+        circumstances = _prepare(state, plan, labels, resume=resume)
         step = _Step(state.network)
         # A process whose crops show no cap uses neither the kernels nor the points.
         trained = DistributedDataParallel(step, find_unused_parameters=True) if process.world > 1 else step
@@ -140,9 +142,11 @@ def train(
         except BaseException:
             if process.leads and state.iteration and not state.stepping:
                 save_checkpoint(out, state.as_checkpoint())
+                circumstances.write()
             raise
         if process.leads:
             _finish(state, plan)
+            circumstances.write()
         process.wait()
         return TrainResult(weights=out / FINAL, figures=state.best)
 
@@ -157,7 +161,7 @@ def _without_denormals() -> Iterator[None]:
         torch.set_flush_denormal(False)
 
 
-def _prepare(state: TrainingState, plan: _Plan, labels: bytes | None, *, resume: bool) -> None:
+def _prepare(state: TrainingState, plan: _Plan, labels: bytes | None, *, resume: bool) -> Circumstances:
     """The output folder: empty for a new training, with its checkpoint for one that goes on."""
     out, process = plan.out, plan.process
     try:
@@ -175,11 +179,13 @@ def _prepare(state: TrainingState, plan: _Plan, labels: bytes | None, *, resume:
     elif any(out.iterdir()) and process.leads:
         raise TrainError(f"{out} is not empty; give a new folder, or --resume to go on with that state.")
     process.wait()
+    circumstances = Circumstances(out / CARD, plan.card, process.device, processes=process.world)
     if process.leads:
         train_log.cut_after(out, state.iteration)
-        (out / CARD).write_bytes(msgspec.json.format(msgspec.json.encode(plan.card), indent=2))
+        circumstances.write()
         if labels is not None:
             (out / LABELS).write_bytes(labels)
+    return circumstances
 
 
 def _iterate(state: TrainingState, step: nn.Module, batches: list[Batch], plan: _Plan) -> dict[str, float]:

@@ -19,6 +19,7 @@ from fairyring.model.coco.writing import (
 )
 from fairyring.model.geometry.clipping import clipped_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, polygon_of_shape
+from fairyring.model.geometry.uniting import united_with
 from fairyring.storage.formats.foreign_keys import without_geometry
 from fairyring.storage.provenance import Standing
 from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
@@ -145,6 +146,9 @@ def _geometry(
         entry["mark"] = rounded(mark.points)
     if whole is not None:
         entry |= whole_keys(whole, visible_area=entry["area"] if visible else None)
+        # No ellipse follows a cap exactly; programs that know whole outlines expect the visible one within.
+        united = united_with(entry["amodal_segmentation"][0], entry["segmentation"])
+        entry["amodal_segmentation"] = rounded_outline(united)
     return entry
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import signal
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +43,10 @@ def test_a_run_stopped_and_resumed_is_one_that_never_stopped(examples: list[Exam
     losses = [logged(tmp_path / name, "mask") for name in ("through", "halves")]
     assert losses[0] == losses[1]
     assert [iteration for iteration, _ in losses[0]] == [1, 2, 3, 4, 5]
+    card = json.loads((tmp_path / "halves" / "run.json").read_text())["circumstances"]
+    assert (card["versions"]["torch"], card["processes"]) == (version("torch"), 1)
+    assert card["device"].startswith("cpu")
+    assert card["seconds"] > 0
     states = [load_checkpoint(tmp_path / name, device=CPU) for name in ("through", "halves")]
     assert len({digest_of(state["network"], "") for state in states}) == 1
 
