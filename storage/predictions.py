@@ -77,9 +77,10 @@ def add_run(
 
 
 def continued_run(
-    connection: Connection, *, name: str, weights: str, settings: dict[str, Any], redo: bool = False
+    connection: Connection, *, name: str, weights: str | None, settings: dict[str, Any], redo: bool = False
 ) -> Run:
-    """The run that predictions of a network go into: the latest, if it is of these weights and settings.
+    """The run that predictions of a network, or a method without weights, go into: the latest, if it is of
+    these weights and settings.
 
     Once another has been made since, or with ``redo``, a new one is entered: an image shows what the latest
     run that saw it said.
@@ -90,7 +91,7 @@ def continued_run(
     return add_run(connection, name=name, kind="network", weights=weights, settings=settings)
 
 
-def seen_by(connection: Connection, *, weights: str, settings: dict[str, Any]) -> set[int]:
+def seen_by(connection: Connection, *, weights: str | None, settings: dict[str, Any]) -> set[int]:
     """Ids of the images that the run of ``continued_run`` has seen."""
     latest = latest_run(connection)
     if latest is None or latest.weights != weights or latest.settings != settings:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
-    help="Measure a network, in six tables.",
+    help="Measure a network, in seven tables.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
@@ -114,6 +114,37 @@ def clicks(
     if real is not None:
         rows += click_rows(predictor, checked(real))
     print_rows("clicks", rows, as_json=as_json)
+
+
+@commands.command()
+def peers(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    diameter: Annotated[
+        float | None, typer.Option(min=2, help="How wide most caps are, px, told to the others.")
+    ] = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """The network beside methods without weights: Hough, watershed by distance, corners.
+
+    Example: `fairyring bench network peers --real photos --count 6`
+    """
+    from fairyring.app.bench.network.peers import peer_rows
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.app.jobs.predicting import network_of
+    from fairyring.model.predict.shipped import SHIPPED
+
+    predictor = network_of(weights or SHIPPED, device=device, least_score=0).predictor
+    rows: list[dict[str, Any]] = []
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
+        for photos in [*sets, *([] if real is None else [checked(real)])]:
+            rows += peer_rows(predictor, photos, diameter=diameter, progress=progress)
+    print_rows("peers", rows, as_json=as_json)
 
 
 @commands.command()

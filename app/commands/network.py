@@ -23,6 +23,15 @@ if TYPE_CHECKING:
     from fairyring.model.predict.passes import Pass
 
 
+class FoundBy(StrEnum):
+    """How caps are found: by a network, or by a method that needs no weights."""
+
+    network = "network"
+    hough = "hough"
+    watershed = "watershed"
+    corners = "corners"
+
+
 class Device(StrEnum):
     """The device to compute on."""
 
@@ -151,6 +160,10 @@ def predict(
     weights: Annotated[
         Path | None, typer.Option(help="Else the newest in PROJECT/weights, else the shipped ones.")
     ] = None,
+    method: Annotated[
+        FoundBy,
+        typer.Option(help="Without weights, far from as good: circles, watershed by distance, corners."),
+    ] = FoundBy.network,
     images: Annotated[str, typer.Option(metavar="GLOB", help="Only images of these file names.")] = "*",
     device: OnDevice = Device.auto,
     least_score: Annotated[
@@ -192,21 +205,27 @@ def predict(
     with open_project(sources[0]) as project:
         wanted = images_called(project, [images])
         # Loading torch takes a while, which a wrong name need not wait for.
-        from fairyring.app.jobs.predicting import network_of, predict_images
+        from fairyring.app.jobs.predicting import ByColour, Finder, network_of, predict_images
         from fairyring.app.weights import require_weights
 
-        network = network_of(
-            weights or require_weights(project),
-            device=device,
-            least_score=least_score,
-            passes=passes_of(fast=fast),
-            diameter=diameter,
-        )
+        finder: Finder
+        if method is FoundBy.network:
+            finder = network_of(
+                weights or require_weights(project),
+                device=device,
+                least_score=least_score,
+                passes=passes_of(fast=fast),
+                diameter=diameter,
+            )
+        elif weights is not None or fast:
+            raise typer.BadParameter(f"--method {method} needs no --weights, and there is no --fast of it.")
+        else:
+            finder = ByColour(method=method.value, diameter=diameter)
         stored: list[int] = []
         try:
             with shown_on_stderr() as shown, stopped_by_sigterm(shown) as progress:
                 outcome = predict_images(
-                    project, network, wanted, redo=redo, progress=progress, predicted=stored.append
+                    project, finder, wanted, redo=redo, progress=progress, predicted=stored.append
                 )
         except KeyboardInterrupt:
             typer.echo(f"Stopped; predicted and kept: {len(stored)}. The same command goes on.", err=True)
@@ -217,7 +236,7 @@ def predict(
         figures = {"images": outcome.images, "caps": outcome.caps, "known": outcome.known}
         typer.echo(json.dumps(figures | {"problems": len(outcome.problems)}))
     else:
-        typer.echo(f"{network.name}: {outcome}", err=True)
+        typer.echo(f"{finder.name}: {outcome}", err=True)
 
 
 def _predict_photos(

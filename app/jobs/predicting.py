@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 import numpy as np
@@ -17,12 +17,14 @@ from sqlalchemy import Connection
 from fairyring.app.caps.fitting import fitted_anew
 from fairyring.app.workers.crew import Run, here
 from fairyring.model import photo
+from fairyring.model.colour.methods import Method, find_caps
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.outline_checks import usable_outline
 from fairyring.model.geometry.shapes import Fit, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
 from fairyring.model.network.weights import load_weights
+from fairyring.model.photo import Pixels
 from fairyring.model.predict.passes import TWO_PASSES, Pass
 from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.predict.scale import detect_at_its_scale
@@ -34,6 +36,56 @@ from fairyring.storage.records import Image
 
 LEAST_SCORE = 0.3
 """Predictions with a lower score are not stored: people would have to delete most of them one by one."""
+
+
+class Finder(Protocol):
+    """What finds caps in photos, with the name and settings of its runs."""
+
+    @property
+    def name(self) -> str:
+        """As people read it."""
+        ...
+
+    @property
+    def digest(self) -> str | None:
+        """SHA-256 of its weights; None where it has none."""
+        ...
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All other settings that decide what it finds."""
+        ...
+
+    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
+        """Score and visible outline of every cap in a photo (height, width, 3) uint8 RGB."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class ByColour:
+    """A method that needs no weights."""
+
+    method: Method
+    diameter: float | None
+    """How wide the photos' middling caps are, pixels; None: measured in each photo."""
+
+    digest = None
+
+    @property
+    def name(self) -> str:
+        """The method's."""
+        return self.method
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The method, and the diameter where it was said."""
+        said = {} if self.diameter is None else {"diameter": self.diameter}
+        return {"method": self.method} | said
+
+    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
+        """Score and outline of every cap; the score is no probability."""
+        found = find_caps(photo, self.method, diameter=self.diameter)
+        return [(each.score, each.outline) for each in found]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +100,11 @@ class Network:
     """All other settings that decide its predictions."""
     diameter: float | None
     """How wide the photos' middling caps are, pixels; None: looked for in each photo."""
+
+    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
+        """Score and outline of every cap."""
+        found = detect_at_its_scale(self.predictor, photo, diameter=self.diameter)
+        return [(detection.score, detection.outline) for detection in found]
 
 
 @dataclass(kw_only=True)
@@ -115,7 +172,7 @@ def _network_of(
 
 def predict_images(
     project: Project,
-    network: Network,
+    finder: Finder,
     image_ids: Sequence[int],
     *,
     redo: bool = False,
@@ -125,20 +182,20 @@ def predict_images(
 ) -> Outcome:
     """Predicts images, each stored whole in one transaction; ``predicted`` is called with its number then.
 
-    The network runs in this process, the caps it saw are fitted by ``compute``.
-    Images that show what this network saw are passed over, unless ``redo``; so the same call again goes on
+    The finder works in this process, the caps it saw are fitted by ``compute``.
+    Images that show what this finder saw are passed over, unless ``redo``; so the same call again goes on
     where one was stopped. A photo that cannot be read is told of and passed over. Raises FairyringError where
     that is so of every one, and whatever ``progress`` raises.
     """
     with project.read() as connection:
-        seen = set() if redo else seen_by(connection, weights=network.digest, settings=network.settings)
+        seen = set() if redo else seen_by(connection, weights=finder.digest, settings=finder.settings)
         images = [get_image(connection, image_id) for image_id in image_ids if image_id not in seen]
     outcome = Outcome(known=len(image_ids) - len(images))
-    run = _Run(network, redo)
+    run = _Run(finder, redo)
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         try:
-            new, statistics = predictions_in(network, project.originals.path_of(image), image, compute)
+            new, statistics = predictions_in(finder, project.originals.path_of(image), image, compute)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
@@ -159,8 +216,8 @@ def leave_a_core() -> None:
 class _Run:
     """The run that predictions go into; stored with the first of them."""
 
-    def __init__(self, network: Network, redo: bool) -> None:
-        self._network, self._redo = network, redo
+    def __init__(self, finder: Finder, redo: bool) -> None:
+        self._finder, self._redo = finder, redo
         self._id: int | None = None
 
     def store(
@@ -173,7 +230,7 @@ class _Run:
     ) -> None:
         """Stores an image's predictions; to be called within ``Project.write``."""
         if self._id is None:
-            of = self._network
+            of = self._finder
             run = continued_run(
                 connection, name=of.name, weights=of.digest, settings=of.settings, redo=self._redo
             )
@@ -183,14 +240,14 @@ class _Run:
 
 
 def predictions_in(
-    network: Network, path: Path, image: Image, compute: Run = here
+    finder: Finder, path: Path, image: Image, compute: Run = here
 ) -> tuple[list[NewPrediction], dict[str, float]]:
-    """What the network sees in the photo at ``path``, and the statistics by which its caps were fitted."""
+    """What is seen in the photo at ``path``, and the statistics by which its caps were fitted."""
     rgb = np.ascontiguousarray(photo.read(path)[:, :, ::-1])
     found = [
-        (detection.score, outline)
-        for detection in detect_at_its_scale(network.predictor, rgb, diameter=network.diameter)
-        if (outline := usable_outline(detection.outline, width=image.width, height=image.height))
+        (score, outline)
+        for score, seen in finder.find(rgb)
+        if (outline := usable_outline(seen, width=image.width, height=image.height))
     ]
     fits, statistics = compute(fitted_anew, image, [outline for _, outline in found])
     new = [

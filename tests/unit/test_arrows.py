@@ -41,7 +41,7 @@ DRAWINGS = {
         train
         evaluate  scene
         contour  predict
-        network  coco
+        network  coco  colour
         geometry  photo  device  json_files  json_values
         errors  progress  light_and_form  whole_files
     """,

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from fairyring.app.bench.network.sets import LabelledPhotos
 from fairyring.model.coco.document import document_of
+from fairyring.model.colour.methods import Found
 from fairyring.model.contour.coco import contour_document
 from fairyring.model.evaluate.centre_figures import evaluate_centres
 from fairyring.model.evaluate.masks import evaluate_masks
@@ -27,7 +28,7 @@ MASK_FIGURES = ("AP", "AP50", "AP75", "AR", "P", "R", "S50", "S75", "S50_strict"
 
 
 def predicted_document(
-    detect: Callable[[Pixels], list[Detection]],
+    detect: Callable[[Pixels], Sequence[Detection | Found]],
     photos: LabelledPhotos,
     *,
     progress: Progress = silent,
