@@ -20,7 +20,9 @@ from fairyring.model.errors import FairyringError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from fairyring.app.jobs.predicting import Finder
     from fairyring.model.predict.passes import Pass
+    from fairyring.storage.project import Project
 
 
 class FoundBy(StrEnum):
@@ -192,6 +194,7 @@ def predict(
         _predict_photos(
             sources,
             out,
+            method=method,
             weights=weights,
             device=device,
             least_score=least_score,
@@ -205,22 +208,11 @@ def predict(
     with open_project(sources[0]) as project:
         wanted = images_called(project, [images])
         # Loading torch takes a while, which a wrong name need not wait for.
-        from fairyring.app.jobs.predicting import ByColour, Finder, network_of, predict_images
-        from fairyring.app.weights import require_weights
+        from fairyring.app.jobs.predicting import predict_images
 
-        finder: Finder
-        if method is FoundBy.network:
-            finder = network_of(
-                weights or require_weights(project),
-                device=device,
-                least_score=least_score,
-                passes=passes_of(fast=fast),
-                diameter=diameter,
-            )
-        elif weights is not None or fast:
-            raise typer.BadParameter(f"--method {method} needs no --weights, and there is no --fast of it.")
-        else:
-            finder = ByColour(method=method.value, diameter=diameter)
+        finder = _finder(
+            method, weights, project, device=device, least_score=least_score, diameter=diameter, fast=fast
+        )
         stored: list[int] = []
         try:
             with shown_on_stderr() as shown, stopped_by_sigterm(shown) as progress:
@@ -239,10 +231,39 @@ def predict(
         typer.echo(f"{finder.name}: {outcome}", err=True)
 
 
+def _finder(
+    method: FoundBy,
+    weights: Path | None,
+    project: Project | None,
+    *,
+    device: Device,
+    least_score: float,
+    diameter: float | None,
+    fast: bool,
+) -> Finder:
+    """The network with the weights that were asked for, else of the project; or a method without weights."""
+    from fairyring.app.jobs.predicting import ByColour, network_of
+    from fairyring.app.weights import require_weights
+    from fairyring.model.predict.shipped import SHIPPED
+
+    if method is not FoundBy.network:
+        if weights is not None or fast:
+            raise typer.BadParameter(f"--method {method} needs no --weights, and there is no --fast of it.")
+        return ByColour(method=method.value, diameter=diameter)
+    return network_of(
+        weights or (require_weights(project) if project else SHIPPED),
+        device=device,
+        least_score=least_score,
+        passes=passes_of(fast=fast),
+        diameter=diameter,
+    )
+
+
 def _predict_photos(
     sources: Sequence[Path],
     out: Path,
     *,
+    method: FoundBy,
     weights: Path | None,
     device: Device,
     least_score: float,
@@ -250,20 +271,14 @@ def _predict_photos(
     fast: bool,
     as_json: bool,
 ) -> None:
-    from fairyring.app.jobs.predicting import network_of
     from fairyring.app.jobs.predicting_photos import photos_at, predict_photos
-    from fairyring.model.predict.shipped import SHIPPED
 
     photos = photos_at(sources)
-    network = network_of(
-        weights or SHIPPED,
-        device=device,
-        least_score=least_score,
-        passes=passes_of(fast=fast),
-        diameter=diameter,
+    finder = _finder(
+        method, weights, None, device=device, least_score=least_score, diameter=diameter, fast=fast
     )
     with steps_shown() as progress:
-        document, problems = predict_photos(photos, network, progress=progress)
+        document, problems = predict_photos(photos, finder, progress=progress)
     for problem in problems:
         typer.echo(problem, err=True)
     if not document["images"]:

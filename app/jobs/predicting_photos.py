@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from fairyring.app.jobs.predicting import Network, predictions_in
+from fairyring.app.jobs.predicting import Finder, predictions_in
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.photo import SUFFIXES, probe
@@ -25,9 +25,9 @@ def photos_at(paths: Sequence[Path]) -> list[Path]:
 
 
 def predict_photos(
-    photos: Sequence[Path], network: Network, *, progress: Progress = silent
+    photos: Sequence[Path], finder: Finder, *, progress: Progress = silent
 ) -> tuple[dict[str, Any], list[str]]:
-    """The document of what a network sees in photos, and a sentence for each that could not be read."""
+    """The document of what is seen in photos, and a sentence for each that could not be read."""
     images: list[dict[str, Any]] = []
     annotations: list[dict[str, Any]] = []
     problems: list[str] = []
@@ -35,13 +35,13 @@ def predict_photos(
         progress(done, len(photos), f"Predicting {path.name}")
         try:
             image = _image(path, number=len(images) + 1)
-            entries = list(_entries(network, path, image, first=len(annotations) + 1))
+            entries = list(_entries(finder, path, image, first=len(annotations) + 1))
         except FairyringError as error:
             problems.append(str(error))
             continue
         images.append({"id": image.id, "file_name": str(path), "width": image.width, "height": image.height})
         annotations += entries
-    info = {"description": "Predicted by Fairyring", "weights": network.digest, "settings": network.settings}
+    info = {"description": "Predicted by Fairyring", "weights": finder.digest, "settings": finder.settings}
     categories = [category_entry(DEFAULT_CATEGORY, {}, number=1)]
     return {"info": info, "categories": categories, "images": images, "annotations": annotations}, problems
 
@@ -58,8 +58,8 @@ def _image(path: Path, *, number: int) -> Image:
     )
 
 
-def _entries(network: Network, path: Path, image: Image, *, first: int) -> Iterator[dict[str, Any]]:
-    found, _ = predictions_in(network, path, image)
+def _entries(finder: Finder, path: Path, image: Image, *, first: int) -> Iterator[dict[str, Any]]:
+    found, _ = predictions_in(finder, path, image)
     for number, new in enumerate(found, start=first):
         said = Prediction(
             id=number,

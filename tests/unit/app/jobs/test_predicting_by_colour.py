@@ -41,3 +41,12 @@ def test_such_a_method_takes_no_weights(project: Project, tmp_path: Path) -> Non
     for words in (("--weights", tmp_path / "some.safetensors"), ("--fast",)):
         assert fairyring("predict", project.folder, "--method", "corners", *words).exit_code == 2
     assert state(project) == before
+
+
+def test_photos_without_a_project_are_predicted_so_too(project: Project, tmp_path: Path) -> None:
+    out = tmp_path / "found.json"
+    photo = project.images / "bed_1.jpg"
+    done = fairyring("predict", photo, "--out", out, "--method", "watershed", "--diameter", 40)
+    assert done.exit_code == 0, done.output
+    info = json.loads(out.read_text())["info"]
+    assert info["settings"] == {"method": "watershed", "diameter": 40.0}
