@@ -6,6 +6,8 @@ from fairyring.storage.records import Image
 
 PHOTOS = "/photos/{image:int}/{content}"
 """Route of the photos; ``content`` is what `content_of` says, so another content has another address."""
+UPLOADS = "/uploads"
+"""Route to which the browser sends photos."""
 DOWNLOADS = "/downloads/{name}"
 """Route of the files that jobs have made."""
 

@@ -26,9 +26,8 @@ class Command(Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def title(self) -> str:
-        """What a button says, and the first of the keys that do the same, if there are any."""
-        words = self.label or self.words
-        return f"{words} ({self.keys[0]})" if self.keys else self.words
+        """What it does, and the first of the keys that do the same, if there are any."""
+        return f"{self.words} ({self.keys[0]})" if self.keys else self.words
 
 
 class Layer(Struct, frozen=True, forbid_unknown_fields=True):

@@ -102,13 +102,38 @@ class Saving(FromEditor, frozen=True, tag="saving"):
     waiting: int
 
 
-class Toggle(FromEditor, frozen=True, tag="toggle"):
-    """Shows or hides a layer, by a key; answered with `Layers`."""
+class Window(FromEditor, frozen=True, tag="window"):
+    """The window that the panel is in; said at the beginning and when it changes."""
 
-    layer: str
+    dark: bool
+    """The system asks for a dark page."""
+    width: int
+    """CSS pixels."""
 
 
-Incoming = Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle | FindCap
+class Tag(FromEditor, frozen=True, tag="tag"):
+    """Says the light and the form of an image; None for not known."""
+
+    image: int
+    light: str | None = None
+    form: str | None = None
+
+
+class Predict(FromEditor, frozen=True, tag="predict"):
+    """Has the network look at an image."""
+
+    image: int
+
+
+class Cancel(FromEditor, frozen=True, tag="cancel"):
+    """Stops a job that the person at this tab has started."""
+
+    job: int
+
+
+Incoming = (
+    Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap
+)
 
 
 class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -210,13 +235,13 @@ class Fitted(FromServer, frozen=True, tag="fit"):
     """How the fit came about, for the inspector; or why there is none."""
 
 
-class Layers(FromServer, frozen=True, tag="layers"):
-    """What the panel says is drawn, and how the photo looks."""
+class JobProgress(FromServer, frozen=True, tag="progress"):
+    """How far a job is whose line the panel shows; total 0 where that is not known."""
 
-    visible: dict[str, bool]
-    """By the name of the layer."""
-    brightness: float = 1.0
-    contrast: float = 1.0
+    job: int
+    done: int
+    total: int
+    words: str
 
 
 class Command(FromServer, frozen=True, tag="command"):
@@ -243,7 +268,7 @@ Outgoing = (
     | Predicted
     | FoundCap
     | Fitted
-    | Layers
+    | JobProgress
     | Command
     | Notice
 )

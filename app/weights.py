@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from safetensors import SafetensorError, safe_open
+
 from fairyring.model.errors import FairyringError
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.storage.folder import WEIGHTS
@@ -16,6 +18,15 @@ def weights_of(project: Project) -> Path | None:
     if own:
         return own[-1][1]
     return SHIPPED if SHIPPED.exists() else None
+
+
+def digest_in(weights: Path) -> str:
+    """The digest that stands in a file of weights, read without loading them; empty where there is none."""
+    try:
+        with safe_open(weights, "numpy") as opened:
+            return (opened.metadata() or {}).get("digest", "")
+    except (OSError, SafetensorError):
+        return ""
 
 
 def require_weights(project: Project) -> Path:

@@ -9,8 +9,10 @@ from typing import Any, Literal
 from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, and_, case, func, or_, select, update
 
+from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
 from fairyring.storage.db.schema import comparison, image, prediction
+from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Image, Status
 
 Sort = Literal["name", "added", "caps", "cdr", "gain"]
@@ -124,6 +126,22 @@ def find_image(connection: Connection, file_name: str) -> Image | None:
     """The image of this base name; None where there is none."""
     row = connection.execute(select(image).where(image.c.file_name == file_name)).first()
     return None if row is None else image_of(row)
+
+
+def set_light_and_form(
+    connection: Connection, image_id: int, *, light: str | None, form: str | None
+) -> Image:
+    """Says by which light an image was taken and which form its caps have; None for not known.
+
+    Raises:
+        StoreError: the project has no such image, or there is no such light or form.
+    """
+    require_image(connection, image_id)
+    for word, known in ((light, LIGHTS), (form, FORMS)):
+        if word is not None and word not in known:
+            raise StoreError(f"{word!r} is none of {', '.join(known)}.")
+    connection.execute(update(image).where(image.c.id == image_id).values(light=light, form=form))
+    return get_image(connection, image_id)
 
 
 def keep_statistics(connection: Connection, image_id: int, statistics: Mapping[str, float]) -> None:

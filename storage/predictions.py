@@ -8,7 +8,7 @@ from typing import Any, Literal
 from uuid import uuid4
 
 from msgspec import Struct, field
-from sqlalchemy import Connection, insert, select, update
+from sqlalchemy import Connection, func, insert, or_, select, update
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.geometry.shapes import Fit
@@ -97,6 +97,15 @@ def seen_by(connection: Connection, *, weights: str | None, settings: dict[str, 
     if latest is None or latest.weights != weights or latest.settings != settings:
         return set()
     return set(connection.execute(select(image.c.id).where(image.c.run == latest.id)).scalars())
+
+
+def count_unseen(connection: Connection, *, weights: str) -> int:
+    """How many images the latest run has not seen, or all where it was not of these weights."""
+    images = select(func.count()).select_from(image)
+    latest = latest_run(connection)
+    if latest is not None and latest.weights == weights:
+        images = images.where(or_(image.c.run.is_(None), image.c.run != latest.id))
+    return connection.execute(images).scalar_one()
 
 
 def add_predictions(

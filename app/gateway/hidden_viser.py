@@ -27,8 +27,6 @@ from websockets.http11 import Request, Response
 from fairyring.model.errors import FairyringError
 
 HEADER = "X-Fairyring-Secret"
-GREEN = (47, 111, 79)
-PANEL_WIDTH = 380
 """Width of the panel, pixels."""
 UNUSED = (viser._messages.ShareUrlRequest, viser._messages.ShareUrlDisconnect)
 """Messages that would make viser open a public tunnel; they are disabled."""
@@ -82,9 +80,8 @@ def start_viser(upstream: Upstream, *, label: str) -> viser.ViserServer:
         stop_viser(panels)
         raise
     panels.scene.world_axes.visible = False
-    panels.gui.configure_theme(show_logo=False, show_share_button=False, brand_color=GREEN)
+    panels.gui.configure_theme(show_logo=False, show_share_button=False)
     panels.gui.main_panel.dock_right()
-    panels.gui.main_panel.set_width(PANEL_WIDTH)
     return panels
 
 

@@ -16,7 +16,7 @@ from starlette.responses import FileResponse, PlainTextResponse, Response
 
 from fairyring.app.addresses import content_of
 from fairyring.app.gateway.login import name_of
-from fairyring.app.gateway.photo_copies import photo_copy
+from fairyring.app.gateway.photo_copies import AS_IT_IS, Wanted, photo_copy
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.errors import FairyringError
 from fairyring.storage.errors import StoreError
@@ -52,7 +52,7 @@ class _Copies:
 def photos_of(
     project: Project, *, cache_limit: int, run: Run = here
 ) -> Callable[[Request], Awaitable[Response]]:
-    """The endpoint of `PHOTOS`, which takes a width as ``?w=``.
+    """The endpoint of `PHOTOS`, which takes a width as ``?w=``, and ``?contrast=local`` to even out contrast.
 
     Photos are decoded by ``run``, and kept in the project's cache as long as they fit ``cache_limit``, bytes.
     """
@@ -65,10 +65,13 @@ def photos_of(
         image = await anyio.to_thread.run_sync(_image_at, project, request.path_params["image"])
         if image is None or request.path_params["content"] != content_of(image):
             return PlainTextResponse("There is no such photo in this project.", status_code=404)
-        width = _width_wanted(request.query_params.get("w"), image)
+        wanted = Wanted(
+            width=_width_wanted(request.query_params.get("w"), image),
+            local_contrast=request.query_params.get("contrast") == "local",
+        )
         try:
             file, media_type = await anyio.to_thread.run_sync(
-                _file_for, project, image, width, copies, limiter=decoding
+                _file_for, project, image, wanted, copies, limiter=decoding
             )
         except PhotoGoneError:
             return PlainTextResponse(f"{image.file_name} is gone; put the photo back.", status_code=404)
@@ -104,17 +107,17 @@ def _width_wanted(asked: str | None, image: Image) -> int | None:
     return next((width for width in WIDTHS if int(asked) <= width < image.width), None)
 
 
-def _file_for(project: Project, image: Image, width: int | None, copies: _Copies) -> tuple[Path, str]:
+def _file_for(project: Project, image: Image, wanted: Wanted, copies: _Copies) -> tuple[Path, str]:
     """The file to send and its media type.
 
     Raises FairyringError where the photo is gone, is another or cannot be read.
     """
     source = project.originals.path_of(image)
-    if width is None and (media_type := type_shown_as_it_is(source)) is not None:
+    if wanted == AS_IT_IS and (media_type := type_shown_as_it_is(source)) is not None:
         return source, media_type
-    made = copies.folder / f"{image.sha256}-{width or 'full'}.jpg"
+    made = copies.folder / f"{image.sha256}-{wanted.width or 'full'}{'-local' * wanted.local_contrast}.jpg"
     if not made.is_file():
-        copies.run(photo_copy, source, made, image, width)
+        copies.run(photo_copy, source, made, image, wanted)
         make_room(copies.folder, copies.limit)
     return made, COPY_TYPE
 

@@ -21,7 +21,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
-from fairyring.app.addresses import DOWNLOADS, PHOTOS
+from fairyring.app.addresses import DOWNLOADS, PHOTOS, UPLOADS
 from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
 from fairyring.app.gateway.bounded_sockets import sockets_of_one_server
 from fairyring.app.gateway.downloads import downloads_of
@@ -32,6 +32,7 @@ from fairyring.app.gateway.security import LOOPBACK, Guard
 from fairyring.app.gateway.socket import editor_of
 from fairyring.app.gateway.static_files import static_file
 from fairyring.app.gateway.timely_requests import TimelyRequests
+from fairyring.app.gateway.uploads import uploads_of
 from fairyring.app.gateway.viser_client import load_viser, viser_file
 from fairyring.app.gateway.viser_page import page
 from fairyring.app.gateway.viser_relay import relay_to
@@ -131,6 +132,7 @@ def make_app(workspace: Workspace, *, door: Door | None) -> ASGIApp:
             Route(
                 PHOTOS, photos_of(workspace.project, cache_limit=cache_limit, run=workspace.crew.photos.run)
             ),
+            Route(UPLOADS, uploads_of(workspace), methods=["POST"]),
             Route(DOWNLOADS, downloads_of(workspace.project)),
             Route("/healthz", _healthz),
             Route("/static/{version}/{path:path}", static_file),

@@ -19,11 +19,15 @@ from fairyring.app.live.finding import Finding
 from fairyring.app.live.opening import open_image, reopen, step
 from fairyring.app.live.recalling import recall
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
+from fairyring.app.live.tagging import tag
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import tell_errors
-from fairyring.app.panels.layers import toggle
+from fairyring.app.panels.jobs import cancel
 from fairyring.app.panels.layout import build_panel
+from fairyring.app.panels.predict import predict_one
+from fairyring.app.panels.window import follow_window
 from fairyring.app.protocol import (
+    Cancel,
     Edits,
     FindCap,
     FromServer,
@@ -31,6 +35,7 @@ from fairyring.app.protocol import (
     Incoming,
     Open,
     Outcomes,
+    Predict,
     Predicted,
     Recall,
     Recalled,
@@ -39,8 +44,9 @@ from fairyring.app.protocol import (
     Select,
     Show,
     Step,
-    Toggle,
+    Tag,
     Welcome,
+    Window,
 )
 from fairyring.storage.records import Refused
 
@@ -134,7 +140,6 @@ async def _encode(message: FromServer) -> str:
 
 async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:
     session.send(Welcome(user=session.user, project=workspace.project.id))
-    session.send(session.layers)
     if workspace.project.read_only:
         session.notify("This project is read-only; changes to it are refused.", "warning")
     build_panel(workspace, session)
@@ -187,10 +192,25 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
         case Saving(waiting=waiting):
             session.waiting = waiting
             session.refresh("status")
-        case Toggle(layer=layer):
-            toggle(session, layer)
+        case Window() | Tag() | Predict() | Cancel():
+            await _carry_out_for_panel(workspace, session, message)
         case Hello():
             session.notify("This tab has said hello before.", "warning")
+
+
+async def _carry_out_for_panel(
+    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel
+) -> None:
+    """Carries out what the panel's own HTML asks for by way of the editor."""
+    match message:
+        case Window():
+            follow_window(session, message)
+        case Tag():
+            await tag(workspace, message)
+        case Predict(image=image):
+            await predict_one(workspace, session, image)
+        case Cancel(job=job):
+            cancel(workspace, session, job)
 
 
 class _Named(Struct):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
@@ -15,6 +16,7 @@ import torch
 from sqlalchemy import Connection
 
 from fairyring.app.caps.fitting import fitted_anew
+from fairyring.app.jobs.pace import note_pace
 from fairyring.app.workers.crew import Run, here
 from fairyring.model import photo
 from fairyring.model.colour.methods import Method, find_caps
@@ -194,12 +196,14 @@ def predict_images(
     run = _Run(finder, redo)
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
+        began = time.monotonic()
         try:
             new, statistics = predictions_in(finder, project.originals.path_of(image), image, compute)
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
         project.write(partial(run.store, image_id=image.id, new=new, statistics=statistics))
+        note_pace(project, time.monotonic() - began)
         outcome.images += 1
         outcome.caps += len(new)
         predicted(image.id)

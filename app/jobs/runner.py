@@ -6,6 +6,7 @@ import asyncio
 import itertools
 import logging
 import threading
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
@@ -45,6 +46,8 @@ class Job:
     link: str = ""
     """Address at which the browser can fetch what the job made."""
     stop: threading.Event = field(default_factory=threading.Event)
+    _counted: tuple[float, int] | None = None
+    """When the first step was counted, and how many had been done then."""
 
     def cancel(self) -> None:
         """Asks the work to stop at its next step."""
@@ -55,6 +58,17 @@ class Job:
         if self.stop.is_set():
             raise CancelledError
         self.done, self.total, self.what = done, total, what
+        if total and (self._counted is None or done < self._counted[1]):
+            self._counted = (time.monotonic(), done)
+
+    @property
+    def seconds_left(self) -> float | None:
+        """How long the rest takes at the pace so far; None while nothing is done that tells it."""
+        if self._counted is None or self.state != "running":
+            return None
+        began, before = self._counted
+        steps = self.done - before
+        return (self.total - self.done) * (time.monotonic() - began) / steps if steps > 0 else None
 
 
 @dataclass(frozen=True)

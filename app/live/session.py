@@ -17,8 +17,7 @@ import viser
 
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
-from fairyring.app.editor_commands import LAYERS
-from fairyring.app.protocol import FromServer, Layers, Notice
+from fairyring.app.protocol import FromServer, Notice
 from fairyring.storage.images import ImageFilter
 from fairyring.storage.records import Annotation, Image, ImageContents, Run
 
@@ -66,9 +65,6 @@ class Session:
     position: int = 0
     count: int = 0
     selection: Selection = field(default_factory=Selection)
-    layers: Layers = field(
-        default_factory=lambda: Layers(visible={layer.name: layer.shown for layer in LAYERS.values()})
-    )
     storing: set[str] = field(default_factory=set)
     """Annotations with edits of this tab on their way to the disk."""
     waiting: int = 0

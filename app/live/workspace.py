@@ -66,10 +66,10 @@ class Workspace:
 
         def finished(job: Job) -> None:
             session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
-            self.refresh("jobs", "predict", "review", "images")
+            self.refresh("status", "jobs", "predict", "learning", "review", "images")
 
         self.jobs.start(title, work, user=session.user, finished=finished)
-        self.refresh("jobs")
+        self.refresh("status", "jobs")
 
     def read_ahead(self, image_ids: Sequence[int]) -> None:
         """Loads images that somebody is likely to open next, in the background."""

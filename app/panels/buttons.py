@@ -34,7 +34,27 @@ def command_button(name: str, *, class_: str | None = None) -> Markup:
     )
 
 
-def worded_button(name: str) -> Markup:
+def labelled_button(name: str) -> Markup:
+    """Runs a command; an icon and its name. Raises KeyError for one not declared."""
+    command = COMMANDS[name]
+    return element(
+        "button",
+        icon(name),
+        element("span", command.label or command.words),
+        type="button",
+        title=command.title,
+        data_fairyring_command=name,
+    )
+
+
+def worded_button(name: str, *, class_: str | None = None) -> Markup:
     """Runs a command; shows its name. Raises KeyError for one not declared."""
     command = COMMANDS[name]
-    return element("button", command.label, type="button", title=command.title, data_fairyring_command=name)
+    return element(
+        "button",
+        command.label,
+        type="button",
+        class_=class_,
+        title=command.title,
+        data_fairyring_command=name,
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from statistics import fmean
 
 from sqlalchemy import Connection
 
@@ -13,17 +12,19 @@ from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.caps.whole_outlines import note_on
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
-from fairyring.app.panels.buttons import command_button
+from fairyring.app.panels.buttons import worded_button
 from fairyring.app.panels.callbacks import Redraw
-from fairyring.app.panels.markup import EMPTY, Content, Markup, element
+from fairyring.app.panels.facts import Facts, card
+from fairyring.app.panels.first_steps import first_steps, offer_prediction
+from fairyring.app.panels.markup import Content, Markup, element
+from fairyring.app.panels.several import selected_caps, several_facts
 from fairyring.app.panels.status import run_badge
+from fairyring.app.panels.tags import tags_of
 from fairyring.model.evaluate.centres import Pair
-from fairyring.model.geometry.shapes import Circle, Polygon, diameter_of_shape
+from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.contents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
-
-Facts = list[tuple[str, Content]]
 
 
 @dataclass(frozen=True)
@@ -49,21 +50,18 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 async def _inspect(workspace: Workspace, session: Session) -> Markup:
-    caps, selection = session.caps, session.selection
+    caps = session.caps
     if caps is None:
-        return EMPTY
-    found = [caps.annotations[uid] for uid in selection.annotations if uid in caps.annotations]
-    annotations = [annotation for annotation in found if not annotation.deleted]
-    wanted = set(selection.predictions)
-    predictions = [prediction for prediction in caps.predictions if prediction.id in wanted]
-    match annotations, predictions:
-        case [annotation], []:
-            return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
-        case [], [prediction]:
-            return prediction_facts(prediction, session.run)
-        case [], []:
+        return first_steps(workspace.project)
+    match selected_caps(caps, session.selection):
+        case []:
             return summary(caps)
-    return several_facts(annotations, predictions)
+        case [Annotation() as annotation]:
+            return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
+        case [Prediction() as prediction]:
+            return prediction_facts(prediction, session.run)
+        case several:
+            return several_facts(several)
 
 
 async def _background(
@@ -112,7 +110,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
     ]
     title = element("strong", f"Cap {annotation.uid[:8]}", title=annotation.uid)
     marking = "mark" if cap.mark is None else "unmark"
-    return _inspector(title, *flags, facts=facts, commands=(marking, "doubtful", "ignored", "delete"))
+    return card(title, *flags, facts=facts, commands=(marking, "doubtful", "ignored", "delete"))
 
 
 def _error_facts(pair: Pair | None) -> Facts:
@@ -137,30 +135,11 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
         ("Score", f"{prediction.score:.3f}"),
         ("Run", run_badge(run) if run else "unknown"),
     ]
-    return _inspector(
-        element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete")
-    )
-
-
-def several_facts(annotations: Sequence[Annotation], predictions: Sequence[Prediction]) -> Markup:
-    """The inspector's view of several caps: how many of what, their means, and what can be done to all."""
-    wholes = [each.whole for each in (*annotations, *predictions) if each.whole is not None]
-    diameters = [diameter_of_shape(whole) for whole in wholes]
-    facts: Facts = [
-        ("Annotations", f"{len(annotations)}, {sum(a.cap.mark is not None for a in annotations)} marked"),
-        ("Predictions", str(len(predictions))),
-    ]
-    if diameters:
-        facts.append(("Diameter", f"{fmean(diameters):.1f} px on average"))
-    if predictions:
-        facts.append(("Score", f"{fmean(p.score for p in predictions):.3f} on average"))
-    commands = ("accept",) if predictions else ()
-    title = element("strong", f"{len(annotations) + len(predictions)} selected")
-    return _inspector(title, facts=facts, commands=(*commands, "merge", "doubtful", "ignored", "delete"))
+    return card(element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete"))
 
 
 def summary(caps: ImageCaps) -> Markup:
-    """Counts of the image on screen, shown while nothing is selected."""
+    """Counts of the image on screen and its tags, shown while nothing is selected."""
     live = [a for a in caps.annotations.values() if not a.deleted]
     real = [a for a in live if not a.cap.ignored]
     touched = {a.cap.prediction for a in caps.annotations.values()}
@@ -170,19 +149,9 @@ def summary(caps: ImageCaps) -> Markup:
         ("Ignored", len(live) - len(real)),
         ("Predictions", f"{waiting} open" if waiting else "none open"),
     ]
-    return _inspector(element("span", "Nothing selected", class_="fr-quiet"), facts=facts)
-
-
-def _inspector(*title: Markup, facts: Facts, commands: tuple[str, ...] = ()) -> Markup:
-    buttons = map(command_button, commands)
-    rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
-    return element(
-        "section",
-        element("div", *title, element("span", *buttons, class_="fr-actions"), class_="fr-line"),
-        element("dl", *rows),
-        class_="fr-cap",
-        aria_label="Selected cap",
-    )
+    title = (element("strong", "The image"), worded_button("tour", class_="fr-tour fr-push"))
+    below = (tags_of(caps.image), None if caps.predictions or live else offer_prediction(caps.image))
+    return card(*title, facts=facts, below=element("div", *below))
 
 
 def _point(point: tuple[float, float] | None) -> str:

@@ -10,11 +10,12 @@ from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.job_progress import progress_of
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.choices import Only
 
 EVERY_S = 0.5
-"""Seconds between two drawings of a running job's progress."""
+"""Seconds between two reports of a running job's progress."""
 EXPORTS: dict[str, Only] = {
     "Approved images": Only.approved,
     "Annotated images": Only.annotated,
@@ -29,7 +30,6 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     what = gui.add_dropdown("Export", tuple(EXPORTS), initial_value="Annotated images")
     export = gui.add_button("Export as COCO (zip)")
     compare = gui.add_button("Compare every image with its predictions")
-    cancel = gui.add_button("Cancel what I started", visible=False)
     shown = gui.add_html("")
 
     async def start_export() -> None:
@@ -41,30 +41,37 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         work = compare_work(workspace.project, run=workspace.crew.patient.run)
         workspace.start_job(session, "Comparison with the predictions", work)
 
-    async def cancel_own() -> None:
-        for job in jobs_of(workspace, session):
-            job.cancel()
-
     export.on_click(person_did(session, start_export))
     compare.on_click(person_did(session, start_comparison))
-    cancel.on_click(person_did(session, cancel_own))
+
+    ticking: set[asyncio.TimerHandle] = set()
+
+    def tick() -> None:
+        for timer in ticking:
+            timer.cancel()
+        ticking.clear()
+        running = workspace.jobs.running
+        for job in running:
+            session.send(progress_of(job))
+        if running:
+            ticking.add(asyncio.get_running_loop().call_later(EVERY_S, tick))
 
     async def redraw() -> None:
         shown.content = job_list(list(workspace.jobs)).html
-        cancel.visible = bool(jobs_of(workspace, session))
-        if workspace.jobs.running:
-            asyncio.get_running_loop().call_later(EVERY_S, session.refresh, "jobs")
+        tick()
 
     return redraw
 
 
-def jobs_of(workspace: Workspace, session: Session) -> list[Job]:
-    """What the person at a tab has started and can cancel."""
-    return [job for job in workspace.jobs.running if job.user == session.user]
+def cancel(workspace: Workspace, session: Session, number: int) -> None:
+    """Stops a job that the person at this tab has started."""
+    job = workspace.jobs.find(number)
+    if job is not None and job.user == session.user:
+        job.cancel()
 
 
 def job_list(jobs: list[Job]) -> Markup:
-    """The list of jobs, newest first."""
+    """The list of jobs, newest first. How far those at work are stands in the header."""
     if not jobs:
         return element("div", "Nothing has run yet.", class_="fr-jobs fr-quiet")
     return element("ul", *(_row(job) for job in jobs), class_="fr-jobs")
@@ -78,7 +85,6 @@ def _row(job: Job) -> Markup:
         class_="fr-line",
     )
     if job.state == "running":
-        bar = element("progress", max=job.total or None, value=job.done if job.total else None)
-        return element("li", head, bar, element("div", job.what, class_="fr-quiet"))
+        return element("li", head)
     link = element("a", "Download", href=job.link, download="") if job.link else None
     return element("li", head, element("div", job.message, " ", link, class_="fr-quiet"))

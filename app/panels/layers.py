@@ -1,63 +1,70 @@
-"""The view: which layers are drawn over the photo, and its brightness and contrast."""
+"""The view: which layers are drawn over the photo, by what caps are coloured, and how the photo looks.
+
+All of it is the browser's business: the editor fills these controls in and follows them at once.
+"""
 
 from __future__ import annotations
 
-from typing import Any
-
-import msgspec
-import viser
-
 from fairyring.app.editor_commands import LAYERS
 from fairyring.app.live.session import Session
-from fairyring.app.live.workspace import Workspace
-from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.buttons import worded_button
+from fairyring.app.panels.markup import Markup, element
+
+SLIDERS = {"brightness": "Brightness", "contrast": "Contrast", "gamma": "Gamma"}
+CHANNELS = {"all": "all colours", "red": "red alone", "green": "green alone", "blue": "blue alone"}
+COLOURINGS = {"none": "what they are", "score": "score", "sure": "how sure the centre is"}
 
 
-def build(_workspace: Workspace, session: Session) -> Redraw:
-    """Builds check boxes for the layers and sliders for the photo."""
-    gui = session.client.gui
-    boxes = {
-        layer.name: gui.add_checkbox(f"{layer.key}  {layer.words}", layer.shown, hint=f"Key {layer.key}")
+def build(session: Session) -> None:
+    """Builds the view's page."""
+    session.client.gui.add_html(view_page().html)
+
+
+def view_page() -> Markup:
+    """Check boxes for the layers, and controls of the photo."""
+    layers = (
+        element(
+            "label",
+            element("input", type="checkbox", data_fairyring_layer=layer.name),
+            element("span", layer.words),
+            element("kbd", layer.key),
+        )
         for layer in LAYERS.values()
-    }
-    brightness = gui.add_slider("Brightness", 0.2, 3.0, 0.05, 1.0)
-    contrast = gui.add_slider("Contrast", 0.2, 3.0, 0.05, 1.0)
-    reset = gui.add_button("Reset brightness and contrast")
-
-    def follow(name: str, box: viser.GuiCheckboxHandle) -> None:
-        async def changed() -> None:
-            _show(session, visible=session.layers.visible | {name: box.value})
-
-        box.on_update(person_did(session, changed))
-
-    async def slid() -> None:
-        _show(session, brightness=brightness.value, contrast=contrast.value)
-
-    async def put_back() -> None:
-        brightness.value = contrast.value = 1.0
-        await slid()
-
-    async def redraw() -> None:
-        for name, box in boxes.items():
-            box.value = session.layers.visible[name]
-
-    for name, box in boxes.items():
-        follow(name, box)
-    for slider in (brightness, contrast):
-        slider.on_update(person_did(session, slid))
-    reset.on_click(person_did(session, put_back))
-    return redraw
+    )
+    return element(
+        "section",
+        element("h3", "Shown"),
+        element("div", *layers, class_="fr-layers"),
+        _choice("Colour of caps", "colouring", COLOURINGS),
+        element("h3", "Photo"),
+        *(_slider(label, name) for name, label in SLIDERS.items()),
+        _choice("Channel", "channel", CHANNELS),
+        _box("Local contrast (CLAHE)", "local"),
+        _box("Loupe at the pointer", "loupe"),
+        worded_button("plain_photo"),
+        class_="fr-view",
+    )
 
 
-def toggle(session: Session, layer: str) -> None:
-    """Shows or hides a layer, as a key in the editor asks."""
-    shown = session.layers.visible
-    if layer in shown:
-        _show(session, visible=shown | {layer: not shown[layer]})
-        session.refresh("layers")
+def _slider(label: str, name: str) -> Markup:
+    control = element("input", type="range", min=0.2, max=3, step=0.05, value=1, data_fairyring_look=name)
+    return element("label", element("span", label), control, element("output", "1.00"), class_="fr-slider")
 
 
-def _show(session: Session, **changes: Any) -> None:
-    """Sends the editor the layers with these changes."""
-    session.layers = msgspec.structs.replace(session.layers, **changes)
-    session.send(session.layers)
+def _choice(label: str, name: str, words: dict[str, str]) -> Markup:
+    options = (element("option", said, value=value) for value, said in words.items())
+    return element(
+        "label",
+        element("span", label),
+        element("select", *options, data_fairyring_look=name),
+        class_="fr-choice",
+    )
+
+
+def _box(label: str, name: str) -> Markup:
+    return element(
+        "label",
+        element("input", type="checkbox", data_fairyring_look=name),
+        element("span", label),
+        class_="fr-box",
+    )

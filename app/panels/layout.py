@@ -10,6 +10,7 @@ from fairyring.app.panels import (
     inspector,
     jobs,
     layers,
+    learning,
     predict,
     review,
     status,
@@ -29,15 +30,16 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("Images"):
             parts["images"] = images.build(workspace, session)
         with pages.add_tab("View"):
-            parts["layers"] = layers.build(workspace, session)
+            layers.build(session)
         with pages.add_tab("History"):
             parts["history"] = history.build(workspace, session)
         with pages.add_tab("Review"):
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)
+            parts["learning"] = learning.build(workspace, session)
             parts["jobs"] = jobs.build(workspace, session)
         redrawing = Redrawing(parts)
         session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
         session.has_panel = True
-    session.refresh("status", "cap", "images", "history", "layers", "review", "predict", "jobs")
+    session.refresh("status", "cap", "images", "history", "review", "predict", "learning", "jobs")

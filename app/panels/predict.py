@@ -8,20 +8,24 @@ from pathlib import Path
 
 import anyio.to_thread
 
+from fairyring.app.jobs.pace import seconds_an_image
 from fairyring.app.jobs.runner import Result
 from fairyring.app.live.opening import show_predictions
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.job_progress import about
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.weights import require_weights, weights_of
+from fairyring.app.weights import digest_in, require_weights, weights_of
 from fairyring.app.workers.crew import Run
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.progress import Progress
 from fairyring.storage.folder import WEIGHTS
-from fairyring.storage.images import ImageFilter, list_ids
+from fairyring.storage.images import ImageFilter, get_image, list_ids
+from fairyring.storage.predictions import count_unseen
 from fairyring.storage.project import Project
 
+EVERY = "Predict every image"
 WIDTH_HINT = "How wide most caps are in the photos. 0: measured in each photo."
 
 
@@ -31,38 +35,75 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     shown = gui.add_html("")
     width = gui.add_number("Cap width, px", 0, min=0, max=5000, step=1, hint=WIDTH_HINT)
     one = gui.add_button("Predict this image")
-    every = gui.add_button("Predict every image")
+    every = gui.add_button(EVERY)
 
-    async def predict_one() -> None:
+    async def predict_shown() -> None:
         if session.image is not None:
-            start(f"Prediction of {session.image.file_name}", [session.image.id])
+            title = f"Prediction of {session.image.file_name}"
+            start(workspace, session, title, [session.image.id], diameter=float(width.value) or None)
 
     async def predict_every() -> None:
         ids = await workspace.read(lambda connection: list_ids(connection, ImageFilter()))
-        start("Prediction of every image", ids)
+        start(workspace, session, "Prediction of every image", ids, diameter=float(width.value) or None)
 
-    def start(title: str, image_ids: Sequence[int]) -> None:
-        loop = asyncio.get_running_loop()
-
-        def predicted(image_id: int) -> None:
-            # Waits, so that nobody is told of the end before the last image is drawn.
-            asyncio.run_coroutine_threadsafe(show_predictions(workspace, image_id), loop).result()
-
-        compute, diameter = workspace.crew.patient.run, float(width.value) or None
-        work = predict_work(
-            workspace.project, image_ids, diameter=diameter, compute=compute, predicted=predicted
-        )
-        workspace.start_job(session, title, work)
-
-    one.on_click(person_did(session, predict_one))
+    one.on_click(person_did(session, predict_shown))
     every.on_click(person_did(session, predict_every))
 
     async def redraw() -> None:
         found = await anyio.to_thread.run_sync(weights_of, workspace.project)
         shown.content = weights_line(found, workspace.project).html
         one.disabled = every.disabled = found is None
+        every.label = await _words_for_every(workspace, found) if found else EVERY
 
     return redraw
+
+
+async def _words_for_every(workspace: Workspace, weights: Path) -> str:
+    digest = await anyio.to_thread.run_sync(digest_in, weights)
+    count = await workspace.read(lambda connection: count_unseen(connection, weights=digest))
+    pace = await anyio.to_thread.run_sync(seconds_an_image, workspace.project)
+    return words_for_every(count, pace)
+
+
+def words_for_every(count: int, seconds: float | None) -> str:
+    """What the button for every image says: how many these weights have not seen, and how long they take.
+
+    Args:
+        count: of images.
+        seconds: an image takes; None where nothing was predicted yet.
+    """
+    if not count:
+        return f"{EVERY}: all are"
+    images = f"{count} image{'' if count == 1 else 's'}"
+    return f"{EVERY}: {images}" + (
+        ", time not known yet" if seconds is None else f", {about(count * seconds)}"
+    )
+
+
+async def predict_one(workspace: Workspace, session: Session, image_id: int) -> None:
+    """Has the network look at an image, as the button on an empty one asks. Raises StoreError without it."""
+    image = await workspace.read(lambda connection: get_image(connection, image_id))
+    start(workspace, session, f"Prediction of {image.file_name}", [image.id], diameter=None)
+
+
+def start(
+    workspace: Workspace, session: Session, title: str, image_ids: Sequence[int], *, diameter: float | None
+) -> None:
+    """Starts the job that predicts images, each drawn as soon as it is stored."""
+    loop = asyncio.get_running_loop()
+
+    def predicted(image_id: int) -> None:
+        # Waits, so that nobody is told of the end before the last image is drawn.
+        asyncio.run_coroutine_threadsafe(show_predictions(workspace, image_id), loop).result()
+
+    work = predict_work(
+        workspace.project,
+        image_ids,
+        diameter=diameter,
+        compute=workspace.crew.patient.run,
+        predicted=predicted,
+    )
+    workspace.start_job(session, title, work)
 
 
 def weights_line(found: Path | None, project: Project) -> Markup:

@@ -1,11 +1,16 @@
-"""The panel's header: the image, the run and the user. The editor itself shows whether all is saved."""
+"""The panel's header: the image, the run, the user, and work in progress. The editor itself shows whether all
+is saved, and its buttons which status the image has."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.buttons import command_button
 from fairyring.app.panels.callbacks import Redraw
+from fairyring.app.panels.job_progress import progress_line
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.records import Run, Status
 
@@ -13,22 +18,23 @@ STATUS_WORDS: dict[Status, str] = {"new": "to do", "annotated": "annotated", "ap
 STATUS_OF_WORD: dict[str, Status] = {word: status for status, word in STATUS_WORDS.items()}
 
 
-def build(_workspace: Workspace, session: Session) -> Redraw:
+def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the header."""
     shown = session.client.gui.add_html("")
 
     async def redraw() -> None:
-        shown.content = header(session).html
+        shown.content = header(session, project=workspace.project.name, jobs=workspace.jobs.running).html
 
     return redraw
 
 
-def header(session: Session) -> Markup:
-    """The header of a tab as it is now."""
+def header(session: Session, *, project: str, jobs: Sequence[Job]) -> Markup:
+    """The header of a tab as it is now, with the jobs at work."""
     return element(
         "header",
         element("div", *_image_line(session), class_="fr-line"),
-        element("div", *_person_line(session), class_="fr-line fr-quiet"),
+        element("div", *_person_line(session, project), class_="fr-line fr-quiet"),
+        *(progress_line(job, own=job.user == session.user) for job in jobs),
         class_="fr-header",
     )
 
@@ -40,7 +46,6 @@ def _image_line(session: Session) -> list[Markup]:
     return [
         command_button("previous_image", class_="fr-step"),
         element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
-        element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}"),
         element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
         command_button("next_image", class_="fr-step"),
     ]
@@ -51,10 +56,11 @@ def _progress() -> Markup:
     return element("span", data_fairyring_progress="", class_="fr-progress", title="Caps checked")
 
 
-def _person_line(session: Session) -> list[Markup]:
+def _person_line(session: Session, project: str) -> list[Markup]:
     run = session.run
     waiting = f"{session.waiting} on their way" if session.waiting else None
     return [
+        element("span", project, class_="fr-ellipsis", title="The project"),
         run_badge(run) if run else element("span", "no predictions"),
         _progress(),
         element(
@@ -77,4 +83,6 @@ def run_badge(run: Run) -> Markup:
         )
         return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
     words = f"predicted by {run.name}" if run.kind == "network" else run.name
-    return element("span", words, class_="fr-badge", title=f"Predictions: {run.name}, {run.made_at}")
+    return element(
+        "span", words, class_="fr-badge fr-ellipsis", title=f"Predictions: {run.name}, {run.made_at}"
+    )

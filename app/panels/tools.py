@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from fairyring.app.live.session import Session
-from fairyring.app.panels.buttons import command_button, tool_button, worded_button
+from fairyring.app.panels.buttons import labelled_button, tool_button, worded_button
 from fairyring.app.panels.markup import Markup, element
 
 TOOLS = ("select", "point", "polygon", "circle", "rim_points", "rim", "split", "pan")
 STATUSES = ("to_do", "annotated", "approved")
-COMMANDS = ("undo", "redo", "fit", "tighten", "merge", "check", "accept_all", "done", "help")
+COMMANDS = ("undo", "redo", "tighten", "merge", "check", "accept_all", "done", "help")
 
 
 def build(session: Session) -> None:
@@ -21,7 +21,7 @@ def toolbar() -> Markup:
     return element(
         "div",
         element("div", *map(tool_button, TOOLS), class_="fr-tools", role="toolbar", aria_label="Tools"),
-        element("div", *map(command_button, COMMANDS), class_="fr-commands"),
+        element("div", *map(labelled_button, COMMANDS), class_="fr-commands"),
         element(
             "div", *map(worded_button, STATUSES), class_="fr-statuses", role="group", aria_label="Status"
         ),

@@ -86,19 +86,19 @@ export default {
         { "name": "next_cap", "keys": ["Tab"], "words": "Next cap" },
         { "name": "previous_cap", "keys": ["Shift+Tab"], "words": "Previous cap" },
         { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
-        { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction" },
-        { "name": "check", "keys": ["Space"], "words": "This one is right: on to the next worst", "label": "Right, next" },
-        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions from a score on" },
+        { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction", "label": "Accept" },
+        { "name": "check", "keys": ["Space"], "words": "This one is right: on to the next worst", "label": "Right" },
+        { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions from a score on", "label": "Accept all" },
         { "name": "tighten", "keys": ["T"], "words": "Draw the selected outlines to the rim nearby", "label": "Tighten" },
         { "name": "merge", "keys": ["J"], "words": "Make one cap of the selected ones", "label": "Merge" },
         { "name": "copy", "keys": ["Ctrl+C"], "words": "Copy the selected caps" },
         { "name": "paste", "keys": ["Ctrl+V"], "words": "Put them down at the pointer, on another photo at their places" },
         { "name": "paste_before", "keys": ["Shift+V"], "words": "Put down the caps of the photo shown before" },
-        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark where there is none" },
-        { "name": "unmark", "keys": ["Shift+M"], "words": "Take the mark away" },
+        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark where there is none", "label": "Mark" },
+        { "name": "unmark", "keys": ["Shift+M"], "words": "Take the mark away", "label": "Unmark" },
         { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
-        { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree" },
-        { "name": "ignored", "keys": ["I"], "words": "Ignored: counts neither way" },
+        { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree", "label": "Doubtful" },
+        { "name": "ignored", "keys": ["I"], "words": "Ignored: counts neither way", "label": "Ignored" },
         { "name": "ignore_buds", "keys": ["Shift+I"], "words": "Ignore all caps smaller than 30 pixels" },
         { "name": "lower", "keys": ["[", "Alt+↓"], "words": "Lower in the overlap order" },
         { "name": "raise", "keys": ["]", "Alt+↑"], "words": "Higher in the overlap order" },
@@ -111,7 +111,7 @@ export default {
         { "name": "push_up", "keys": ["Shift+↑"], "words": "Move by a pixel" },
         { "name": "push_down", "keys": ["Shift+↓"], "words": "Move by a pixel" },
         { "name": "undo", "keys": ["Ctrl+Z"], "words": "Undo; while drawing, the last point", "label": "Undo" },
-        { "name": "redo", "keys": ["Ctrl+Shift+Z", "Ctrl+Y"], "words": "Redo" }
+        { "name": "redo", "keys": ["Ctrl+Shift+Z", "Ctrl+Y"], "words": "Redo", "label": "Redo" }
       ]
     },
     {
@@ -119,16 +119,19 @@ export default {
       "commands": [
         { "name": "next_image", "keys": ["N", "PageDown"], "words": "Next image" },
         { "name": "previous_image", "keys": ["P", "PageUp"], "words": "Previous image" },
-        { "name": "done", "keys": ["Ctrl+Enter"], "words": "Mark as annotated and go to the next" },
+        { "name": "done", "keys": ["Ctrl+Enter"], "words": "Mark as annotated and go to the next", "label": "Done" },
         { "name": "to_do", "keys": [], "words": "Set the status to “to do”", "label": "To do" },
         { "name": "annotated", "keys": [], "words": "Set the status to “annotated”", "label": "Annotated" },
         { "name": "approved", "keys": [], "words": "Set the status to “approved”", "label": "Approved" },
-        { "name": "fit", "keys": ["F"], "words": "Fit the photo" },
+        { "name": "fit", "keys": ["F"], "words": "Fit the photo", "label": "Fit" },
         { "name": "zoom_selection", "keys": ["Z"], "words": "Zoom to the selection" },
         { "name": "zoom_in", "keys": ["+", "="], "words": "Zoom in" },
         { "name": "zoom_out", "keys": ["-"], "words": "Zoom out" },
+        { "name": "loupe", "keys": ["Q"], "words": "A loupe at the pointer, or none" },
+        { "name": "plain_photo", "keys": [], "words": "Show the photo as it is", "label": "Photo as it is" },
+        { "name": "tour", "keys": [], "words": "Try out the tools in a minute", "label": "Take the tour (1 min)" },
         { "name": "switch_focus", "keys": ["F6"], "words": "From the photo to the panel and back" },
-        { "name": "help", "keys": ["?"], "words": "This list", "label": "All keys" }
+        { "name": "help", "keys": ["F1", "?"], "words": "This list", "label": "Keys" }
       ]
     }
   ],
@@ -139,7 +142,8 @@ export default {
     { "name": "whole", "key": "4", "words": "Whole outlines", "shown": true },
     { "name": "centre", "key": "5", "words": "Centres", "shown": true },
     { "name": "label", "key": "6", "words": "Labels", "shown": false },
-    { "name": "prediction", "key": "7", "words": "Predictions", "shown": true }
+    { "name": "prediction", "key": "7", "words": "Predictions", "shown": true },
+    { "name": "uncertainty", "key": "8", "words": "Uncertainty of centres", "shown": false }
   ],
   "held": [
     { "name": "pan", "key": "Space", "words": "A drag moves the view" },

@@ -4,8 +4,8 @@
  * @module
  */
 
-import { same } from "./geometry/same.js";
 import { isPrediction } from "./geometry/shapes.js";
+import { Fingers } from "./input/fingers.js";
 import { bringFocusBack } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
@@ -27,16 +27,23 @@ import { Transport } from "./sync/transport.js";
 import { firstAddress, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
+import { nameFields } from "./ui/field_names.js";
 import { hintIn } from "./ui/hint.js";
+import { showJob } from "./ui/job_lines.js";
 import { noticesIn } from "./ui/notices.js";
+import { legendIn } from "./ui/legend.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
 import { showProgress } from "./ui/progress.js";
 import { Refusals } from "./ui/refusals.js";
 import { statusIn } from "./ui/status.js";
 import { Threshold } from "./ui/threshold.js";
+import { listenToTags } from "./ui/tags.js";
+import { takePhotos } from "./ui/uploads.js";
+import { followView } from "./ui/view_controls.js";
+import { aboutWindow } from "./ui/window.js";
+import { zoomButtonsIn } from "./ui/zoom_buttons.js";
 
 /** @typedef {import("./protocol.js").FromServer} FromServer */
-/** @typedef {import("./protocol.js").Layers} Layers */
 /** @typedef {import("./protocol.js").ToServer} ToServer */
 
 /** Close codes of the server. */
@@ -64,6 +71,8 @@ export class Editor {
   #toolbox;
   #found;
   #perform;
+  #pressed = () => {};
+  #window = aboutWindow(() => this.#transport.send(this.#window()));
 
   /**
    * @param {HTMLElement} host
@@ -112,15 +121,16 @@ export class Editor {
       show: ({ image, uid }) => this.#showCap(image, uid),
     });
     const tool = () => this.#toolbox.tool;
-    const pressed = pressedButtons(() => tool().name);
+    this.#pressed = pressedButtons(() => ({ tool: tool().name, status: state.image?.status ?? null }));
     const hint = hintIn(host);
+    new Fingers(host, state.viewport, () => host.dispatchEvent(new PointerEvent("pointercancel")));
     const pointer = new Pointer(host, state, {
       tool,
       caused: (event, kind) => this.#frame.causedBy(event, kind),
     });
     this.#toolbox = new Toolbox(state, {
       changed: () => {
-        pressed();
+        this.#pressed();
         hint(tool().name);
         pointer.letGo();
         pointer.cursor();
@@ -139,7 +149,6 @@ export class Editor {
       drawings: this.#drawings,
       say: this.#say,
     });
-    hint(tool().name);
     this.#perform = performer({
       state,
       host,
@@ -153,6 +162,7 @@ export class Editor {
       askScore: () => threshold.ask(),
     });
     this.#listen(host, pointer);
+    hint(tool().name);
     this.#progress();
     expose(host, {
       state,
@@ -186,7 +196,15 @@ export class Editor {
         state.commitDrafts();
         this.#sync.takeBack(image, changeSet);
       },
+      send: (message) => void this.#send(message),
     });
+    listenToTags(() => state.image, (tag) => void this.#send(tag), this.#say);
+    const legend = legendIn(host);
+    state.look.changed.listen((_, { colouring }) => legend(colouring));
+    followView(state.layers, state.look);
+    zoomButtonsIn(host, this.#perform);
+    nameFields();
+    takePhotos(host, this.#say);
     bringFocusBack(host);
     showProgress(state);
     keepPlace(state, (image, cap) => this.#open(image, cap));
@@ -259,6 +277,7 @@ export class Editor {
     const { image } = this.#state;
     if (image && image.id === this.#sync.image && image.status !== status)
       this.#state.image = { ...image, status };
+    this.#pressed();
     this.#status({ connection: this.#transport.state, waiting, kept, conflicts: conflicts.length });
     this.#conflicts.update(conflicts, this.#state.image?.id ?? 0);
     if (waiting !== this.#waiting && this.#transport.send({ type: "saving", waiting }))
@@ -297,8 +316,8 @@ export class Editor {
         return this.#found.take(message);
       case "fit":
         return this.#liveFit.take(message);
-      case "layers":
-        return this.#layers(message);
+      case "progress":
+        return showJob(message);
       case "command":
         return void this.#perform(message.name);
       case "notice":
@@ -310,6 +329,7 @@ export class Editor {
   async #welcome({ project, user }) {
     this.#waiting = 0;
     this.#user = user;
+    this.#transport.send(this.#window());
     if (this.#project !== project) {
       this.#project = project;
       this.#drawings.use(project);
@@ -318,20 +338,9 @@ export class Editor {
     this.#sync.resume();
   }
 
-  /** @type {(layers: Layers) => void} */
-  #layers({ visible, brightness, contrast }) {
-    const plain = brightness === 1 && contrast === 1;
-    this.#frame.tint(plain ? "" : `brightness(${brightness}) contrast(${contrast})`);
-    const { layers } = this.#state;
-    const now = { ...layers.visible, ...visible };
-    if (same(now, layers.visible)) return;
-    layers.visible = now;
-  }
-
   /** @type {(layer: string) => void} */
   #toggle(layer) {
     const { layers } = this.#state;
     layers.visible = { ...layers.visible, [layer]: !layers.visible[layer] };
-    this.#transport.send({ type: "toggle", layer });
   }
 }

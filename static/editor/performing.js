@@ -3,6 +3,7 @@ import { ACTIONS } from "./input/actions.js";
 import { switchFocus } from "./input/focus.js";
 import { keyList } from "./ui/help.js";
 import { ask } from "./ui/question.js";
+import { tourIn } from "./ui/tour.js";
 
 /** @typedef {import("./input/actions/context.js").Context} Context */
 /** @typedef {import("./input/pointer.js").Pointer} Pointer */
@@ -40,6 +41,7 @@ export function performer({ host, toolbox, sync, pointer, photos, ...passed }) {
     ask,
     switchFocus: () => switchFocus(host),
     help: keyList(),
+    tour: tourIn(host, passed.state),
   };
   return (name) => {
     const action = Object.hasOwn(ACTIONS, name) ? ACTIONS[name] : null;

@@ -236,9 +236,10 @@
  */
 
 /**
- * @typedef {Object} Toggle
- * @property {"toggle"} type
- * @property {string} layer
+ * @typedef {Object} Window
+ * @property {"window"} type
+ * @property {boolean} dark
+ * @property {number} width
  */
 
 /**
@@ -251,7 +252,27 @@
  * @property {[number, number, number, number] | null} box
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Toggle | FindCap} ToServer */
+/**
+ * @typedef {Object} Tag
+ * @property {"tag"} type
+ * @property {number} image
+ * @property {string | null} light
+ * @property {string | null} form
+ */
+
+/**
+ * @typedef {Object} Predict
+ * @property {"predict"} type
+ * @property {number} image
+ */
+
+/**
+ * @typedef {Object} Cancel
+ * @property {"cancel"} type
+ * @property {number} job
+ */
+
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap} ToServer */
 
 /**
  * @typedef {Object} Welcome
@@ -348,11 +369,12 @@
  */
 
 /**
- * @typedef {Object} Layers
- * @property {"layers"} type
- * @property {Record<string, boolean>} visible
- * @property {number} brightness
- * @property {number} contrast
+ * @typedef {Object} JobProgress
+ * @property {"progress"} type
+ * @property {number} job
+ * @property {number} done
+ * @property {number} total
+ * @property {string} words
  */
 
 /**
@@ -368,6 +390,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Fitted | Layers | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Fitted | JobProgress | Command | Notice} FromServer */
 
 export {};

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -50,7 +51,7 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     tab.page.get_by_role("tab", name="Jobs").click()
     tab.page.get_by_text("the newest in the project's weights folder").wait_for()
 
-    tab.page.get_by_role("button", name="Predict this image").click()
+    tab.page.get_by_role("button", name="Predict this image").last.click()
     tab.wait_for("window.fairyring.state.predictions.length > 0")
     tab.page.get_by_text("1 image predicted").first.wait_for()
     tab.accept_all()
@@ -59,13 +60,13 @@ def test_predictions_are_drawn_as_they_come_and_the_rest_can_be_cancelled(
     assert accepted
     assert all(shape["cap"]["prediction"] for shape in accepted)
 
-    tab.page.get_by_role("button", name="Predict every image").click()
-    tab.page.locator(".fr-jobs progress[max]").wait_for()
-    tab.page.get_by_text("Predicting bed_").first.wait_for()
+    tab.page.get_by_role("button", name=re.compile(r"Predict every image: 11 images, about \d+ s")).click()
+    tab.page.locator(".fr-header progress[max]").wait_for()
+    tab.page.get_by_text(re.compile(r"of 11 · about .* left · Predicting bed_")).first.wait_for()
     tab.press("n")
     tab.wait_for("window.fairyring.state.image.file_name === 'bed_1.png'")
     tab.wait_for("window.fairyring.state.predictions.length > 0")
-    tab.page.get_by_role("button", name="Cancel what I started").click()
+    tab.page.locator(".fr-header").get_by_role("button", name="Cancel").click()
     tab.page.get_by_text("what was done so far is kept").first.wait_for()
     with open_project(project) as opened, opened.read() as connection:
         every = [load_contents(connection, i) for i in list_ids(connection, ImageFilter())]
@@ -80,7 +81,7 @@ def test_what_was_accepted_is_not_offered_again_by_a_later_run(
 ) -> None:
     tab = open_tab(server)
     tab.page.get_by_role("tab", name="Jobs").click()
-    tab.page.get_by_role("button", name="Predict this image").click()
+    tab.page.get_by_role("button", name="Predict this image").last.click()
     tab.wait_for("window.fairyring.state.predictions.length > 0")
     seen = tab.state("predictions")
     tab.accept_all()

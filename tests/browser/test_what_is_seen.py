@@ -28,7 +28,7 @@ def test_hidden_predictions_are_neither_accepted_nor_deleted_nor_selected(
     tab = open_tab(server)
     tab.select((150, 150))
     tab.page.get_by_role("tab", name="View", exact=True).click()
-    tab.page.get_by_text("7 Predictions").click()
+    tab.page.locator("[data-fairyring-layer=prediction]").click()
     tab.wait_for("window.fairyring.state.selection.length === 0")
     tab.press("Delete", "a", "Shift+A", "d", "m", "Tab", "Escape")
     tab.click((150, 150))

@@ -26,6 +26,7 @@ import { axesOf, boundsOfWhole, measure, movedCap, movedWhole, placedWhole } fro
  * @property {number | null} score  of a prediction; null for what people agreed on
  * @property {boolean} checked  a person has looked at it and found it right, or put it right
  * @property {number} doubt  how much it is worth a look, between 0 and 1
+ * @property {Point | null} [sd]  one standard deviation of the centre along x and y, where the server has said it
  */
 
 /** A cap that nobody has seen before. @type {(uid: string, cap: Cap) => Shape} */
@@ -35,8 +36,9 @@ export function newShape(uid, cap) {
 
 /** @type {(annotation: Annotation, checked?: boolean) => Shape} */
 export function shapeOfAnnotation(annotation, checked = true) {
-  const { uid, cap, revision, deleted, whole, centre } = annotation;
-  return { uid, cap, revision, deleted, whole, centre, score: null, checked, doubt: doubtOf(annotation) };
+  const { uid, cap, revision, deleted, whole, centre, centre_sd: sd } = annotation;
+  const doubt = doubtOf(annotation);
+  return { uid, cap, revision, deleted, whole, centre, score: null, checked, doubt, sd };
 }
 
 /** A centre that may be so far off, of the diameter, is worth every look. */
@@ -50,7 +52,7 @@ function doubtOf({ whole, centre_sd }) {
 }
 
 /** @type {(prediction: Prediction) => Shape} */
-export function shapeOfPrediction({ id, visible, category, whole, centre, score }) {
+export function shapeOfPrediction({ id, visible, category, whole, centre, score, extra }) {
   return {
     uid: uidOfPrediction(id),
     cap: { visible, mark: null, ignored: false, doubtful: false, order: null, category, prediction: id },
@@ -61,7 +63,13 @@ export function shapeOfPrediction({ id, visible, category, whole, centre, score 
     score,
     checked: false,
     doubt: 1 - score,
+    sd: pairOf(extra.center_sd),
   };
+}
+
+/** @type {(value: unknown) => Point | null} */
+function pairOf(value) {
+  return Array.isArray(value) && value.length === 2 ? [Number(value[0]), Number(value[1])] : null;
 }
 
 /** @type {(id: number) => string} */

@@ -7,9 +7,11 @@
 
 import { reachOf } from "../geometry/shapes.js";
 import { CachedPicture } from "./cached_picture.js";
+import { Loupe } from "./loupe.js";
 import { Overlay } from "./overlay.js";
 import { nearTo, paint } from "./paint.js";
 import { PaintOrders } from "./paint_orders.js";
+import { photoFilter } from "./photo_filter.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
@@ -34,6 +36,11 @@ export class Frame {
   #overlay;
   #state;
   #sketches;
+  #photos;
+  #filter = "";
+  #loupe;
+  /** Where the pointer is, CSS pixels of the host; null where it is elsewhere. @type {import("../protocol.js").Point | null} */
+  #pointer = null;
 
   /**
    * @param {HTMLElement} host
@@ -44,6 +51,8 @@ export class Frame {
   constructor(host, state, photos, sketches) {
     this.#state = state;
     this.#sketches = sketches;
+    this.#photos = photos;
+    const filter = photoFilter(host);
     const ready = () => this.ask();
     this.#photo = new CachedPicture(host, {
       paint: (context, view, region) => photos.paint(context, view, region),
@@ -51,6 +60,15 @@ export class Frame {
     });
     this.#caps = this.#capsIn(host, ready);
     this.#overlay = new Overlay(host);
+    this.#loupe = new Loupe(host);
+    this.#followPointer(host);
+    state.look.changed.listen((before, now) => {
+      this.#filter = filter(now);
+      this.#photo.tint(this.#filter);
+      if (before.local !== now.local) void photos.useLocal(now.local);
+      if (before.colouring !== now.colouring) this.redraw();
+      this.ask();
+    });
     state.signals.overlay.listen(() => this.ask());
     state.signals.picture.listen(() => this.redraw());
     state.signals.shapes.listen((shapes) => this.#repair(shapes));
@@ -58,22 +76,33 @@ export class Frame {
 
   /** The picture of all caps but those that the overlay shows. @type {(host: HTMLElement, ready: () => void) => CachedPicture} */
   #capsIn(host, ready) {
-    const { items, layers, selection } = this.#state;
+    const { items, layers, look, selection } = this.#state;
     const orders = new PaintOrders();
     return new CachedPicture(host, {
-      paint: (context, view, region) => {
-        const { lifted } = this.#state;
-        const shapes = items.near(nearTo(region, view)).filter(({ uid }) => !lifted.has(uid));
-        paint(context, view, region, { shapes, visible: layers.visible, selected: selection.uids });
-      },
+      paint: (context, view, region) => this.#paintCaps(context, view, region),
       order: (extent) => {
         const { lifted } = this.#state;
         const { visible } = layers;
-        return orders.order(extent, { shapes: items.all, visible, selected: selection.uids, lifted });
+        const { colouring } = look.now;
+        return orders.order(extent, {
+          shapes: items.all,
+          visible,
+          selected: selection.uids,
+          lifted,
+          colouring,
+        });
       },
       ready,
     });
   }
+
+  /** All caps but those that the overlay shows. @type {(context: import("./paths.js").Context, view: import("../geometry/view.js").View, region: import("../geometry/bounds.js").Bounds) => void} */
+  #paintCaps = (context, view, region) => {
+    const { lifted, items, layers, look, selection } = this.#state;
+    const shapes = items.near(nearTo(region, view)).filter(({ uid }) => !lifted.has(uid));
+    const { colouring } = look.now;
+    paint(context, view, region, { shapes, visible: layers.visible, selected: selection.uids, colouring });
+  };
 
   /** An event came that changes what is seen; the timing of the next frame is counted from it. @type {(event: number, kind: string) => void} */
   causedBy(event, kind) {
@@ -105,9 +134,27 @@ export class Frame {
     this.#caps.blank();
   }
 
-  /** @type {(filter: string) => void} */
-  tint(filter) {
-    this.#photo.tint(filter);
+  /** @type {(host: HTMLElement) => void} */
+  #followPointer(host) {
+    host.addEventListener("pointermove", (event) => {
+      const box = host.getBoundingClientRect();
+      this.#pointer = [event.clientX - box.left, event.clientY - box.top];
+      if (this.#state.look.now.loupe) this.ask();
+    });
+    host.addEventListener("pointerleave", () => {
+      this.#pointer = null;
+      this.ask();
+    });
+  }
+
+  #drawLoupe() {
+    const { look, viewport } = this.#state;
+    if (!look.now.loupe || !this.#pointer) return this.#loupe.hide();
+    this.#loupe.show(viewport.view, this.#pointer, {
+      photo: (context, view, region) => this.#photos.paint(context, view, region),
+      caps: this.#paintCaps,
+      filter: this.#filter,
+    });
   }
 
   /** @type {(then: () => void) => void} */
@@ -135,6 +182,7 @@ export class Frame {
     this.#photo.show(view, size, ratio);
     const complete = this.#caps.show(view, size, ratio);
     this.#overlay.draw(this.#state, ratio, this.#sketches());
+    this.#drawLoupe();
     this.#note(started);
     if (complete) for (const then of this.#whenComplete.splice(0)) then();
   }

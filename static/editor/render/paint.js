@@ -9,6 +9,7 @@ import { grown, overlap } from "../geometry/bounds.js";
 import { isPrediction, reachOf } from "../geometry/shapes.js";
 import { toScreen } from "../geometry/view.js";
 import { hatch, traceKnown } from "./hatching.js";
+import { goodness, lineOf } from "./colouring.js";
 import { CASING, COLOURS, FILLS, SHADE } from "./palette.js";
 import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCentred } from "./paths.js";
 
@@ -20,7 +21,14 @@ import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCent
 /** @typedef {"prediction" | "ignored" | "outline" | "checked" | "selected"} Style */
 
 const SMALL_PX = 7;
-const LABEL_PX = 30;
+/** Between these sizes on screen, pixels, what is drawn beside the outline of a cap comes into sight. */
+const FADES = { whole: [26, 52], centre: [18, 36], label: [24, 40] };
+/** From this many caps on screen, everything of it comes into sight later. */
+const CROWD = 120;
+const LATER = 1.4;
+/** An uncertainty is drawn as twice its standard deviation, where that can be seen. */
+const SPREADS = 2;
+const LEAST_SPREAD_PX = 2;
 /** How far from the outline anything of a shape may be drawn: lines, the cross, a label. */
 const AROUND_PX = 24;
 /** From this many shapes on, lines are a device pixel wide: five times quicker to draw in software. */
@@ -31,6 +39,7 @@ const MANY = 400;
  * @property {Shape[]} shapes  those farther away may be left out
  * @property {Visible} visible  which layers
  * @property {ReadonlySet<string>} selected
+ * @property {import("./colouring.js").Colouring} [colouring]
  */
 
 /**
@@ -41,13 +50,15 @@ const MANY = 400;
  * @param {Bounds} region
  * @param {Picture} picture
  */
-export function paint(context, view, region, { shapes, visible, selected }) {
+export function paint(context, view, region, { shapes, visible, selected, colouring = "none" }) {
   context.lineJoin = "round";
   context.lineCap = "round";
   const groups = groupsOf(shapes, view, region, selected, visible);
   const count = [...groups.values()].reduce((sum, group) => sum + group.length, 0);
   const fine = count >= MANY;
-  for (const [style, group] of groups) paintGroup(context, view, group, { style, visible, fine });
+  const later = count >= CROWD ? LATER : 1;
+  for (const [style, group] of groups)
+    paintGroup(context, view, group, { style, visible, fine, later, colouring });
 }
 
 /** The rectangle whose shapes may show in `region`, image pixels. @type {(region: Bounds, view: View) => Bounds} */
@@ -84,22 +95,47 @@ function styleOf(shape, selected) {
   return shape.checked ? "checked" : "outline";
 }
 
-/** @type {(context: Context, view: View, shapes: Shape[], how: {style: Style, visible: Visible, fine: boolean}) => void} */
-function paintGroup(context, view, shapes, { style, visible, fine }) {
+/**
+ * @typedef {Object} How
+ * @property {Style} style
+ * @property {Visible} visible
+ * @property {boolean} fine  lines are a device pixel wide
+ * @property {number} later  how much larger than usual caps are before more of them is drawn
+ * @property {import("./colouring.js").Colouring} colouring
+ */
+
+/** @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
+function paintGroup(context, view, shapes, how) {
+  const { style, visible } = how;
   const large = shapes.filter((shape) => sizeOf(shape, view) >= SMALL_PX);
   const ignored = shapes.filter(({ cap }) => cap.ignored);
   hatch(context, view, ignored);
   if (style === "selected" || (style !== "ignored" && visible.fill))
     fillShapes(context, view, shapes, FILLS[style]);
-  if (visible.whole && style !== "ignored") strokeWholes(context, view, large);
+  /** @type {(part: keyof FADES, draw: (shape: Shape) => void) => void} */
+  const faded = (part, draw) => {
+    for (const shape of large) {
+      const seen = style === "selected" ? 1 : seenAt(sizeOf(shape, view) / how.later, FADES[part]);
+      if (seen === 0) continue;
+      context.globalAlpha = seen;
+      draw(shape);
+    }
+    context.globalAlpha = 1;
+  };
+  if (visible.whole && style !== "ignored") faded("whole", (shape) => strokeWhole(context, view, shape));
   if (visible.outline || style === "prediction" || style === "ignored")
-    strokeOutlines(context, view, shapes, style, fine);
+    strokeOutlines(context, view, shapes, how);
   if (visible.whole && style !== "ignored") strokeMarks(context, view, large);
-  if (visible.centre && style !== "ignored") strokeCentres(context, view, large, style);
-  for (const shape of large) {
-    const text = visible.label ? labelOf(shape) : shape.cap.doubtful ? "?" : "";
-    if (text) writeLabel(context, view, shape, text);
-  }
+  if (visible.uncertainty && style !== "ignored") strokeUncertainties(context, view, large);
+  if (visible.centre && style !== "ignored")
+    faded("centre", (shape) => strokeCentre(context, view, shape, style));
+  for (const shape of large) if (shape.cap.doubtful && !visible.label) writeLabel(context, view, shape, "?");
+  if (visible.label) faded("label", (shape) => writeLabel(context, view, shape, labelOf(shape)));
+}
+
+/** From 0, not at all, to 1. @type {(size: number, between: number[]) => number} */
+function seenAt(size, [from, to]) {
+  return Math.min(Math.max((size - from) / (to - from), 0), 1);
 }
 
 /** @type {(shape: Shape, view: View) => number} */
@@ -123,31 +159,40 @@ function fillShapes(context, view, shapes, fill) {
   }
 }
 
-/** @type {(context: Context, view: View, shapes: Shape[], style: Style, fine: boolean) => void} */
-function strokeOutlines(context, view, shapes, style, fine) {
+/** @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
+function strokeOutlines(context, view, shapes, { style, fine, colouring }) {
   context.setLineDash(style === "prediction" ? [5, 4] : []);
-  const colour = COLOURS[style];
   for (const shape of shapes) {
+    const good = style === "ignored" || style === "selected" ? null : goodness(shape, colouring);
+    const { colour, width } =
+      good === null ? { colour: COLOURS[style], width: style === "ignored" ? 1 : 1.5 } : lineOf(good);
     if (style === "ignored") traceKnown(context, view, shape.cap);
     else traceVisible(context, view, shape);
-    if (fine) strokeShaded(context, colour);
-    else
-      strokeCased(context, {
-        colour,
-        width: style === "ignored" ? 1 : 1.5,
-        casing: CASING,
-      });
+    if (fine && good === null) strokeShaded(context, colour);
+    else strokeCased(context, { colour, width, casing: CASING });
   }
   context.setLineDash([]);
 }
 
+/** @type {(context: Context, view: View, shape: Shape) => void} */
+function strokeWhole(context, view, { whole, cap }) {
+  if (!whole || cap.mark) return;
+  context.beginPath();
+  traceWhole(context, view, whole);
+  strokeShaded(context, COLOURS.whole);
+}
+
 /** @type {(context: Context, view: View, shapes: Shape[]) => void} */
-function strokeWholes(context, view, shapes) {
-  for (const { whole, cap } of shapes) {
-    if (!whole || cap.mark) continue;
+function strokeUncertainties(context, view, shapes) {
+  context.fillStyle = FILLS.uncertainty;
+  for (const { centre, sd } of shapes) {
+    if (!centre || !sd) continue;
+    const [rx, ry] = sd.map((one) => SPREADS * one * view.scale);
+    if (Math.max(rx, ry) < LEAST_SPREAD_PX) continue;
     context.beginPath();
-    traceWhole(context, view, whole);
-    strokeShaded(context, COLOURS.whole);
+    context.ellipse(...toScreen(view, ...centre), rx, ry, 0, 0, 2 * Math.PI);
+    context.fill();
+    strokeShaded(context, COLOURS.uncertainty);
   }
 }
 
@@ -162,21 +207,19 @@ function strokeMarks(context, view, shapes) {
   }
 }
 
-/** @type {(context: Context, view: View, shapes: Shape[], style: Style) => void} */
-function strokeCentres(context, view, shapes, style) {
-  for (const { centre, cap } of shapes) {
-    if (!centre) continue;
-    context.beginPath();
-    traceCross(context, ...toScreen(view, ...centre), 3.5);
-    const colour = style === "prediction" ? COLOURS.prediction : cap.mark ? COLOURS.mark : COLOURS.whole;
-    strokeCased(context, { colour, width: 1, casing: SHADE });
-  }
+/** @type {(context: Context, view: View, shape: Shape, style: Style) => void} */
+function strokeCentre(context, view, { centre, cap }, style) {
+  if (!centre) return;
+  context.beginPath();
+  traceCross(context, ...toScreen(view, ...centre), 3.5);
+  const colour = style === "prediction" ? COLOURS.prediction : cap.mark ? COLOURS.mark : COLOURS.whole;
+  strokeCased(context, { colour, width: 1, casing: SHADE });
 }
 
 /** @type {(context: Context, view: View, shape: Shape, text: string) => void} */
 function writeLabel(context, view, shape, text) {
   const bounds = reachOf(shape);
-  if (!bounds || (sizeOf(shape, view) < LABEL_PX && !shape.cap.doubtful)) return;
+  if (!bounds || !text) return;
   const [x, y] = toScreen(view, (bounds.x0 + bounds.x1) / 2, bounds.y0);
   writeCentred(context, text, x, y + 3);
 }

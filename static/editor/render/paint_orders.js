@@ -29,14 +29,23 @@ export class PaintOrders {
    * @param {Picture & {lifted: Set<string>}} picture  with every shape, lifted ones too
    * @returns {Promise<ImageBitmap>}
    */
-  order(extent, { shapes, visible, selected, lifted }) {
+  order(extent, { shapes, visible, selected, lifted, colouring = "none" }) {
     const id = this.#next++;
     const fresh = shapes.filter((shape) => this.#sent.get(shape.uid) !== shape);
     const now = new Map(shapes.map((shape) => [shape.uid, shape]));
     const gone = [...this.#sent.keys()].filter((uid) => !now.has(uid));
     this.#sent = now;
     /** @type {Order} */
-    const order = { id, ...extent, fresh, gone, visible, lifted: [...lifted], selected: [...selected] };
+    const order = {
+      id,
+      ...extent,
+      fresh,
+      gone,
+      visible,
+      colouring,
+      lifted: [...lifted],
+      selected: [...selected],
+    };
     this.#worker.postMessage(order);
     return new Promise((resolve) => this.#orders.set(id, resolve));
   }

@@ -20,6 +20,7 @@ import { paint } from "./paint.js";
  * @property {string[]} lifted  not to be painted
  * @property {string[]} selected
  * @property {Visible} visible
+ * @property {import("./colouring.js").Colouring} colouring
  * @property {View} view
  * @property {number} width  CSS pixels
  * @property {number} height
@@ -30,7 +31,7 @@ import { paint } from "./paint.js";
 const shapes = new Map();
 
 /** @type {(order: Order) => ImageBitmap} */
-function carryOut({ fresh, gone, lifted, selected, visible, view, width, height, ratio }) {
+function carryOut({ fresh, gone, lifted, selected, visible, colouring, view, width, height, ratio }) {
   for (const uid of gone) shapes.delete(uid);
   for (const shape of fresh) shapes.set(shape.uid, shape);
   const canvas = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
@@ -41,6 +42,7 @@ function carryOut({ fresh, gone, lifted, selected, visible, view, width, height,
   const picture = {
     shapes: [...shapes.values()].filter(({ uid }) => !away.has(uid)),
     visible,
+    colouring,
     selected: new Set(selected),
   };
   paint(context, view, visibleBounds(view, { width, height }), picture);

@@ -19,6 +19,7 @@ export const COLOURS = {
   theirs: "#ff8a3d",
   refused: "#ff5c6c",
   draft: "#ffffff",
+  uncertainty: "#ff8a3d",
 };
 
 /**
@@ -40,4 +41,5 @@ export const FILLS = {
   prediction: "rgba(201, 184, 255, 0.16)",
   ignored: "rgba(196, 202, 210, 0.6)",
   mark: "rgba(255, 111, 181, 0.14)",
+  uncertainty: "rgba(255, 138, 61, 0.28)",
 };

@@ -95,11 +95,11 @@ export function strokeShaded(context, colour) {
  * @type {(context: Context, text: string, x: number, y: number) => void}
  */
 export function writeCentred(context, text, x, y) {
-  context.font = "600 11px system-ui, sans-serif";
+  context.font = "600 12px system-ui, sans-serif";
   context.textAlign = "center";
   context.textBaseline = "top";
   context.lineWidth = 3;
-  context.strokeStyle = "rgba(8, 12, 20, 0.8)";
+  context.strokeStyle = "rgba(8, 12, 20, 0.9)";
   context.strokeText(text, x, y);
   context.fillStyle = "#ffffff";
   context.fillText(text, x, y);

@@ -17,6 +17,8 @@ export class Photos {
   /** @type {Map<string, Promise<ImageBitmap>>} */
   #bitmaps = new Map();
   #url = "";
+  /** The photo's contrast is evened out from place to place. */
+  #local = false;
   /** @type {Size} */
   #size = { width: 0, height: 0 };
   /** @type {ImageBitmap | null} */
@@ -41,16 +43,33 @@ export class Photos {
     this.#url = url;
     this.#size = size;
     this.#bitmap = null;
-    const bitmap = await this.#fetch(smaller(url));
-    if (this.#url !== url || this.#bitmap) return;
+    await this.#load();
+  }
+
+  /** Shows photos with or without their contrast evened out from place to place. @type {(local: boolean) => Promise<void>} */
+  async useLocal(local) {
+    this.#local = local;
+    // The photo as it was stays until the other is there.
+    if (this.#url) await this.#load();
+  }
+
+  async #load() {
+    const wanted = this.#address(smaller(this.#url));
+    const bitmap = await this.#fetch(wanted);
+    if (wanted !== this.#address(smaller(this.#url))) return;
     this.#bitmap = bitmap;
-    this.#full = bitmap.width >= size.width;
+    this.#full = bitmap.width >= this.#size.width;
     this.#changed();
+  }
+
+  /** Where a photo is as it is to be seen now. @type {(url: string) => string} */
+  #address(url) {
+    return this.#local ? `${url}${url.includes("?") ? "&" : "?"}contrast=local` : url;
   }
 
   /** @type {(urls: string[]) => void} */
   prefetch(urls) {
-    for (const url of urls) void this.#fetch(smaller(url)).catch(() => {});
+    for (const url of urls) void this.#fetch(this.#address(smaller(url))).catch(() => {});
   }
 
   /**
@@ -106,9 +125,9 @@ export class Photos {
   #sharpen(scale) {
     if (this.#full || scale * this.#size.width <= SMALL_WIDTH * 1.2) return;
     this.#full = true;
-    const url = this.#url;
+    const url = this.#address(this.#url);
     void this.#fetch(url).then((bitmap) => {
-      if (this.#url !== url) return;
+      if (this.#address(this.#url) !== url) return;
       this.#bitmap = bitmap;
       this.#changed();
     });

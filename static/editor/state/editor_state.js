@@ -16,6 +16,7 @@ import { Gesture } from "./gesture.js";
 import { HalfDrawn } from "./half_drawn.js";
 import { Items } from "./items.js";
 import { Layers } from "./layers.js";
+import { PhotoLook } from "./photo_look.js";
 import { Selection } from "./selection.js";
 import { signal } from "./signal.js";
 import { Store } from "./store.js";
@@ -40,6 +41,7 @@ export class EditorState {
   clipboard = new Clipboard();
   halfDrawn = new HalfDrawn();
   layers = new Layers();
+  look = new PhotoLook();
   viewport = new Viewport(() => this.signals.overlay.emit());
   /** What the server said last about an outline. @type {Fitted | null} */
   fitted = null;

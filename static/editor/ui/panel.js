@@ -1,8 +1,10 @@
 /**
- * viser's panel: clicks on the HTML the server puts there, and which tool's button looks pressed.
+ * viser's panel: clicks on the HTML the server puts there, and which buttons look pressed.
  *
  * @module
  */
+
+import { keptUp, marked, put } from "./following.js";
 
 /**
  * @typedef {Object} Callbacks
@@ -10,6 +12,7 @@
  * @property {(command: string) => void} perform
  * @property {(tool: string) => void} use
  * @property {(image: number, changeSet: number) => void} takeBack  a change set of the image's history
+ * @property {(message: import("../protocol.js").ToServer) => void} send
  */
 
 /** @type {(callbacks: Callbacks) => void} */
@@ -26,32 +29,39 @@ export function listenToPanel(callbacks) {
 }
 
 /** @type {(target: Element, callbacks: Callbacks) => void} */
-function carryOut(target, { open, perform, use, takeBack }) {
+function carryOut(target, { open, perform, use, takeBack, send }) {
   const button = target.closest(
-    "[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool], [data-fairyring-recall]",
+    "[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool], [data-fairyring-recall], [data-fairyring-cancel], [data-fairyring-predict]",
   );
   if (!(button instanceof HTMLElement)) return;
   const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool, fairyringRecall, fairyringImage } =
     button.dataset;
+  const { fairyringCancel, fairyringPredict } = button.dataset;
+  if (fairyringCancel) send({ type: "cancel", job: Number(fairyringCancel) });
+  if (fairyringPredict) send({ type: "predict", image: Number(fairyringPredict) });
   if (fairyringOpen) open(Number(fairyringOpen), fairyringSelect || null);
   if (fairyringCommand) perform(fairyringCommand);
   if (fairyringTool) use(fairyringTool);
   if (fairyringRecall) takeBack(Number(fairyringImage), Number(fairyringRecall));
 }
 
+/** Which button says which status. @type {Record<string, import("../protocol.js").Status>} */
+const STATUSES = { to_do: "new", annotated: "annotated", approved: "approved" };
+
 /**
- * Shows which tool is in hand, also on buttons that viser puts into the page later.
+ * Shows which tool is in hand and which status the image has, also on buttons that viser puts into the page
+ * later.
  *
- * @param {() => string} tool
- * @returns {() => void} to call when the tool changes
+ * @param {() => {tool: string, status: import("../protocol.js").Status | null}} now
+ * @returns {() => void} to call when that changes
  */
-export function pressedButtons(tool) {
-  const update = () => {
-    for (const button of document.querySelectorAll("[data-fairyring-tool]")) {
-      const pressed = String(button.getAttribute("data-fairyring-tool") === tool());
-      if (button.getAttribute("aria-pressed") !== pressed) button.setAttribute("aria-pressed", pressed);
-    }
-  };
-  new MutationObserver(update).observe(document.body, { childList: true, subtree: true });
-  return update;
+export function pressedButtons(now) {
+  return keptUp(() => {
+    const { tool, status } = now();
+    for (const button of marked("data-fairyring-tool"))
+      put(button, "aria-pressed", String(button.dataset.fairyringTool === tool));
+    for (const [command, its] of Object.entries(STATUSES))
+      for (const button of document.querySelectorAll(`[data-fairyring-command=${command}]`))
+        put(button, "aria-pressed", String(its === status));
+  });
 }

@@ -21,7 +21,7 @@ def test_a_button_says_what_it_does_and_by_which_key() -> None:
         'title="Accept all open predictions from a score on (Shift+A)"' in command_button("accept_all").html
     )
     assert 'aria-label="Delete"' in command_button("delete").html
-    assert 'title="Delete (Del)"' in command_button("delete").html
+    assert 'title="Fit the photo (F)"' in command_button("fit").html
     assert "<span>Outline<kbd>W</kbd></span>" in tool_button("polygon").html
 
 
@@ -39,7 +39,7 @@ def test_the_panel_offers_its_tools_and_commands_with_their_keys() -> None:
 
 def test_the_layers_are_named_once_with_keys_in_their_order() -> None:
     assert [layer.key for layer in LAYERS.values()] == [str(i) for i in range(1, len(LAYERS) + 1)]
-    assert [name for name, layer in LAYERS.items() if not layer.shown] == ["label"]
+    assert [name for name, layer in LAYERS.items() if not layer.shown] == ["label", "uncertainty"]
 
 
 @pytest.mark.parametrize("folder", ["app", "static/editor"])

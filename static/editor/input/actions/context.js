@@ -22,6 +22,7 @@
  * @property {(layer: string) => void} toggle  shows or hides a layer
  * @property {() => void} switchFocus  from the photo to the panel, and back
  * @property {() => void} help
+ * @property {() => void} tour  begins it, or ends it
  * @property {(text: string) => void} say
  */
 

@@ -13,7 +13,6 @@ from fairyring.app.protocol import (
     Changed,
     Edits,
     Hello,
-    Layers,
     Notice,
     Open,
     Outcomes,
@@ -21,7 +20,7 @@ from fairyring.app.protocol import (
     Show,
     StatusChanged,
     Step,
-    Toggle,
+    Tag,
     Welcome,
 )
 from fairyring.storage.project import Project
@@ -162,17 +161,26 @@ def test_a_status_is_stored_with_its_author_and_every_list_follows(port: int, pr
         assert row == ("new", "approved", "Ada")
 
 
-def test_a_layer_key_and_the_panel_agree(port: int) -> None:
-    with Tab(port) as tab:
+def test_light_and_form_are_stored_and_told_to_every_tab(port: int, project: Project) -> None:
+    with Tab(port, name="Ada", image=1) as ada, Tab(port, name="Bo", image=1) as bo:
+        ada.expect(Show)
+        bo.expect(Show)
+        ada.send(Tag(image=1, light="side", form="c"))
+        until(lambda: "side · form c" in bo.panel.html)
+        with sqlite3.connect(project.folder / "project.db") as database:
+            row = database.execute("SELECT light, form FROM image WHERE id = 1").fetchone()
+        assert row == ("side", "c")
+        ada.send(Tag(image=1, light="moon", form=None))
+        assert "none of top, side, dark" in ada.expect(Notice).text
+
+
+def test_the_panel_counts_and_averages_what_is_selected(port: int) -> None:
+    with Tab(port, image=1) as tab:
         tab.expect(Show)
-        tab.send(Toggle(layer="label"))
-        assert tab.expect(Layers).visible["label"] is True
-        tab.panel.set("Brightness", 2.0)
-        layers = tab.expect(Layers)
-        assert layers.brightness == 2.0
-        assert layers.visible["label"] is True
-        tab.panel.set("2  Visible outlines", False)
-        assert tab.expect(Layers, lambda m: not m.visible["outline"]).visible["label"] is True
+        tab.edit(new_cap(1, uid="cap-1", edit="e1"), new_cap(1, uid="cap-2", edit="e2", doubtful=True))
+        tab.send(Select(annotations=["cap-1", "cap-2"]))
+        until(lambda: "2 selected" in tab.panel.html)
+        assert "1 of 2" in tab.panel.html
 
 
 def test_an_image_that_is_gone_is_a_notice_and_nothing_else_changes(port: int) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fairyring.app.panels.inspector import several_facts
+from fairyring.app.panels.several import several_facts
 from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.records import Annotation, Cap, Prediction
 
@@ -20,15 +20,15 @@ SAID = [
 
 
 def test_of_several_caps_it_says_how_many_of_what_they_are_and_their_means() -> None:
-    html = several_facts([MARKED], SAID).html
+    html = several_facts([MARKED, *SAID]).html
     assert "3 selected" in html
-    assert "1, 1 marked" in html
-    assert "36.7 px on average" in html, "30, 40 and 40"
-    assert "0.700 on average" in html
+    assert "1 annotation and 2 predictions" in html
+    assert "mean 36.7 px, from 30.0 to 40.0" in html, "30, 40 and 40"
+    assert "mean 0.70, from 0.50 to 0.90" in html
 
 
 def test_it_offers_what_can_be_done_to_all_of_them() -> None:
-    assert 'data-fairyring-command="accept"' in several_facts([MARKED], SAID).html
-    assert 'data-fairyring-command="accept"' not in several_facts([MARKED, MARKED], []).html
+    assert 'data-fairyring-command="accept"' in several_facts([MARKED, *SAID]).html
+    assert 'data-fairyring-command="accept"' not in several_facts([MARKED, MARKED]).html
     for command in ("merge", "doubtful", "ignored", "delete"):
-        assert f'data-fairyring-command="{command}"' in several_facts([MARKED], SAID).html
+        assert f'data-fairyring-command="{command}"' in several_facts([MARKED, *SAID]).html

@@ -8,12 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec import structs
 
+from fairyring.app.jobs.learnt import Learnt
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.panels import images, jobs, review, status
 from fairyring.app.panels import inspector as cap
 from fairyring.app.panels.inspector import Background
+from fairyring.app.panels.learning import learnt_table
 from fairyring.app.panels.markup import element
+from fairyring.app.panels.several import several_facts
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.comparisons import Comparison, ComparisonRow
@@ -23,8 +26,8 @@ from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Pre
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (
-    "a button dd div dl dt figcaption figure header img kbd li p path progress section span strong svg table "
-    "tbody td th thead tr ul"
+    "a button dd div dl dt figcaption figure header img kbd label li option p path progress section select "
+    "span strong svg table tbody td th thead tr ul"
 )
 
 
@@ -81,6 +84,11 @@ FIGURES = Comparison(
 )  # fmt: skip
 
 
+LEARNT = Learnt(
+    name=EVIL, base=EVIL, weights=EVIL, photos=EVIL, held_out=2, before={"AP": 0.5}, after={"AP": 0.6}
+)
+
+
 def session() -> Session:
     nobody = object()
     opened = Session(client=nobody, beacon=nobody, token=None, user=EVIL)
@@ -105,11 +113,13 @@ def every_panel() -> dict[str, str]:
     running = Job(id=2, title=EVIL, user=EVIL, what=EVIL, total=3)
     reviewed = review.Review(RUN, [ComparisonRow(file_name=EVIL, comparison=FIGURES, stale=True)], 1, 1)
     return {
-        "status": status.header(session()).html,
+        "status": status.header(session(), project=EVIL, jobs=[running]).html,
         "images": images.image_list(ImagePage(rows=[row], total=1), 0, 1).html,
         "annotation": cap.annotation_facts(ANNOTATION, background).html,
         "prediction": cap.prediction_facts(PREDICTION, RUN).html,
         "summary": cap.summary(session().caps).html,
+        "several": several_facts([ANNOTATION, PREDICTION]).html,
+        "learnt": learnt_table(LEARNT).html,
         "review": review.review_page(reviewed, 0, 1).html,
         "jobs": jobs.job_list([told, running]).html,
     }
@@ -121,7 +131,7 @@ def test_hostile_strings_stay_text_in_every_panel() -> None:
         assert set(page.tags) <= set(HARMLESS_TAGS.split()), name
         assert not [key for key, _ in page.attributes if key.startswith("on")], name
         assert not [value for key, value in page.attributes if key == "src" and value == "x"], name
-        assert EVIL in page.text or name in {"summary", "images"}, name
+        assert EVIL in page.text or name in {"summary", "images", "several"}, name
 
 
 def test_a_simulated_run_is_called_that_plainly() -> None:

@@ -1,0 +1,24 @@
+/**
+ * Gives fields of viser's panel the names that stand beside them: viser writes labels, but not every field
+ * has the id that they name.
+ *
+ * @module
+ */
+
+import { keptUp, put } from "./following.js";
+
+const FIELD = "input, select, textarea, [role=slider], [role=combobox]";
+
+export function nameFields() {
+  keptUp(() => {
+    for (const label of document.querySelectorAll("[data-dock-scroll] label[for]")) {
+      const name = label.textContent?.trim();
+      const row = label.closest("p")?.parentElement?.parentElement;
+      if (!name || !row) continue;
+      for (const field of row.querySelectorAll(FIELD)) {
+        const own = field instanceof HTMLInputElement && field.labels?.length;
+        if (!own) put(field, "aria-label", name);
+      }
+    }
+  });
+}
