@@ -9,7 +9,7 @@ from typing import Any
 
 from fairyring.app.jobs.runner import Result
 from fairyring.app.live.workspace import Workspace
-from fairyring.app.panels.jobs import jobs_of
+from fairyring.app.panels import jobs
 from fairyring.app.settings import Settings
 from fairyring.model.progress import Progress
 from fairyring.storage.project import Project
@@ -63,8 +63,8 @@ def test_cancel_is_for_what_one_has_started_oneself(project: Project) -> None:
     async def cancel() -> dict[str, str]:
         workspace.start_job(ada, "Export", work)
         workspace.start_job(bob, "Comparison", work)
-        for job in jobs_of(workspace, bob):
-            job.cancel()
+        for job in workspace.jobs:
+            jobs.cancel(workspace, bob, job.id)
         gate.set()
         while workspace.jobs.running:
             await asyncio.sleep(0.01)
