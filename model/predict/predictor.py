@@ -19,7 +19,7 @@ from fairyring.model.network.fold import fold_batch_norms
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.refine import refine
 from fairyring.model.photo import Pixels
-from fairyring.model.predict.added_and_taken import behind
+from fairyring.model.predict.added_and_taken import behind, parted
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
 from fairyring.model.predict.overlaps import Window, distinct
@@ -142,7 +142,7 @@ class Predictor:
         found = [
             (score, _scaled(outline, 1 / scaling))
             for score, window in pooled(pieces, width=width, height=height)
-            if (outline := outline_of_logits(smoothed(window.logits), corner=(window.x, window.y)))
+            if (outline := _smooth_outline(window))
         ]
         scores = calibrated(np.array([score for score, _ in found]), self.calibration)
         return [
@@ -173,6 +173,13 @@ class Predictor:
             raise ValueError("Every point needs a label, and the first must be on the cap.")
         scaling = _scaling(seen)
         found = window_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest)
+        if found is not None:
+            score, window = found
+            for taken in places[~wanted] * scaling:
+                # A notch that goes no further than the click is smoothed away again.
+                if _holds(_smooth_outline(window), taken):
+                    window = parted(window, places[wanted] * scaling, taken)
+            found = score, window
         others = [o for o in front if not any(_holds(o, place) for place in places[wanted])]
         return self._told(seen, found, others)
 
@@ -194,7 +201,7 @@ class Predictor:
         score, window = found
         scaling = _scaling(seen)
         window = behind(window, [_scaled(outline, scaling) for outline in front])
-        outline = outline_of_logits(smoothed(window.logits), corner=(window.x, window.y))
+        outline = _smooth_outline(window)
         if not outline:
             return None
         outline = _scaled(outline, 1 / scaling)
@@ -223,6 +230,10 @@ def _chosen(instances: Instances, kept: Sequence[int]) -> Instances:
 def _scaling(seen: Seen) -> NDArray[np.float64]:
     """Pixels of the scaled photo for each pixel of the photo, along x and y."""
     return np.array(seen.scaled) / (seen.width, seen.height)
+
+
+def _smooth_outline(window: Window) -> Outline:
+    return outline_of_logits(smoothed(window.logits), corner=(window.x, window.y))
 
 
 def _holds(outline: Outline, point: NDArray[np.float64]) -> bool:

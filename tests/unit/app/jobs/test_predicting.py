@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.cli import app
 from fairyring.app.jobs.predicting import Network, network_of, predict_images
-from fairyring.app.protocol import Edits, Notice, Predicted, Select, Show
+from fairyring.app.protocol import Cancel, Edits, JobProgress, Notice, Predicted, Select, Show
 from fairyring.app.weights import weights_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.predict.predictor import Predictor
@@ -262,8 +262,8 @@ def test_a_button_predicts_every_image_until_it_is_cancelled(
     with Tab(serve(), image=ids[2]) as tab:
         tab.expect(Show)
         tab.panel.set("Predict every image", True)
-        until(lambda: "Predicting bed_2" in tab.panel.html, "progress")
-        tab.panel.set("Cancel what I started", True)
+        working = tab.expect(JobProgress, lambda each: "Predicting bed_2" in each.words)
+        tab.send(Cancel(job=working.job))
         assert "Cancelled" in tab.expect(Notice).text
     with project.read() as connection:
         runs = {i: load_contents(connection, i).run for i in ids}
