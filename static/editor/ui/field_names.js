@@ -1,6 +1,6 @@
 /**
  * Gives fields of viser's panel the names that stand beside them: viser writes labels, but not every field
- * has the id that they name.
+ * has the id that they name, and the buttons that close its notes have none.
  *
  * @module
  */
@@ -8,9 +8,11 @@
 import { keptUp, put } from "./following.js";
 
 const FIELD = "input, select, textarea, [role=slider], [role=combobox]";
+const CLOSES_NOTE = ".mantine-Notification-closeButton";
 
 export function nameFields() {
   keptUp(() => {
+    for (const button of document.querySelectorAll(CLOSES_NOTE)) put(button, "aria-label", "Close");
     for (const label of document.querySelectorAll("[data-dock-scroll] label[for]")) {
       const name = label.textContent?.trim();
       const row = label.closest("p")?.parentElement?.parentElement;
