@@ -25,8 +25,9 @@ export function questionOf(status, counts) {
       yes: "It is empty",
       no: "Go back",
     };
+  // What a file said was said by somebody: by itself it is no reason to ask.
+  if (open === 0 && coarse === 0) return null;
   const found = [...ofOpen(counts), ...ofUnchecked(unchecked), ...ofCoarse(coarse)];
-  if (found.length === 0) return null;
   const means = open === 0 ? "" : caps === 0 ? ", it counts as a photo without a single cap" : meaning(open);
   return {
     text: `${name} has ${inWords(found)}. Set to “${status}” as it is${means || ", they stay as they are"}.`,

@@ -28,7 +28,7 @@ const STEPS = [
     isDone: (before, now) => now.marked > before.marked,
   },
   {
-    text: "Ctrl+Enter says that the photo is done, and opens the next. It asks first while caps are unchecked.",
+    text: "Ctrl+Enter says that the photo is done, and opens the next. It asks first while predictions are open.",
     isDone: (_, now) => now.finished,
   },
 ];

@@ -53,5 +53,5 @@ function countsOf({ items }, name) {
   const caps = items.all.filter((shape) => !isPrediction(shape));
   const open = items.all.length - caps.length;
   const unchecked = caps.filter(({ checked, cap }) => !checked && !cap.ignored).length;
-  return { name, caps: caps.length, open, unchecked, coarse: caps.filter(isCoarse).length };
+  return { name, caps: caps.length, open, unchecked, coarse: caps.filter((shape) => shape.checked && isCoarse(shape)).length };
 }
