@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import compress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ import numpy as np
 from msgspec import Struct
 
 from fairyring.model import photo
+from fairyring.model.geometry.boxes import boxes_of_outlines, touching
 from fairyring.model.geometry.shapes import Outline
 
 if TYPE_CHECKING:
@@ -46,13 +48,11 @@ def cap_found(asked: Asked) -> tuple[float, Outline] | None:
 
 
 def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> list[Outline]:
-    """Those of which a vertex is near to one of the places."""
-    return [outline for outline in outlines if any(_is_near(outline, place) for place in places)]
-
-
-def _is_near(outline: Outline, place: tuple[float, float]) -> bool:
-    points = np.concatenate([np.reshape(part, (-1, 2)) for part in outline])
-    return bool((np.abs(points - np.array(place)).max(axis=1) < NEAR_PX).any())
+    """Those whose box is near to one of the places."""
+    points = np.reshape(np.array(places, np.float64), (-1, 2))
+    around = np.concatenate([points - NEAR_PX, points + NEAR_PX], axis=1)
+    meeting = touching(boxes_of_outlines(outlines), around).any(axis=1)
+    return list(compress(outlines, meeting))
 
 
 @lru_cache(maxsize=1)

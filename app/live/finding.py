@@ -75,7 +75,7 @@ class Finding:
             points=request.points,
             wanted=request.wanted,
             box=box,
-            front=near(others, places),
+            front=await anyio.to_thread.run_sync(near, others, places),
         )
         answer = self._workspace.crew.network.ask(lambda: (cap_found, (asked,)), urgency=URGENT)
         return await asyncio.wrap_future(answer)

@@ -5,14 +5,12 @@ from __future__ import annotations
 from functools import partial
 
 import anyio.to_thread
-from sqlalchemy import select
 
 from fairyring.app.live.opening import CHANGES_IMAGE, open_image, reopen
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
-from fairyring.storage.db import schema
 from fairyring.storage.errors import StoreError
-from fairyring.storage.images import position_in_list
+from fairyring.storage.images import ImageFilter, list_ids, position_in_list
 from fairyring.storage.taken_out import put_back, take_out, taken_out
 
 
@@ -48,8 +46,7 @@ async def put_back_last(workspace: Workspace, session: Session) -> None:
 async def leave_missing(workspace: Workspace) -> None:
     """Leads tabs away from images that somebody has taken out by a command."""
     shown = {tab.image.id for tab in workspace.tabs if tab.image is not None}
-    there = select(schema.image.c.id).where(schema.image.c.id.in_(shown))
-    gone = shown - await workspace.read(lambda connection: set(connection.execute(there).scalars()))
+    gone = shown - set(await workspace.read(lambda connection: list_ids(connection, ImageFilter())))
     for tab in workspace.tabs:
         if tab.image is not None and tab.image.id in gone:
             tab.notify(f"{tab.image.file_name} was taken out of the project.", "warning")
