@@ -51,8 +51,8 @@ def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> 
     """Those whose box is near to one of the places."""
     points = np.reshape(np.array(places, np.float64), (-1, 2))
     around = np.concatenate([points - NEAR_PX, points + NEAR_PX], axis=1)
-    meeting = touching(boxes_of_outlines(outlines), around).any(axis=1)
-    return list(compress(outlines, meeting))
+    meeting = np.asarray(touching(boxes_of_outlines(outlines), around).any(axis=1))
+    return list(compress(outlines, meeting.tolist()))
 
 
 @lru_cache(maxsize=1)
