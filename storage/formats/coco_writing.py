@@ -25,6 +25,7 @@ from fairyring.storage.provenance import Standing
 from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
 
 KEYPOINTS = ["centre"]
+WRITTEN_BY = f"Fairyring {version('fairyring')}"
 NOT_SAID: dict[str, Any] = {}
 
 
@@ -108,7 +109,7 @@ def info_entry(
     if standing.changed_at is not None:
         info |= {"date_created": standing.changed_at, "year": int(standing.changed_at[:4])}
     info |= {"license": ", ".join(named)} if named else {}
-    return info | {"written_by": f"Fairyring {version('fairyring')}"}
+    return info | {"written_by": WRITTEN_BY}
 
 
 def category_entry(name: str, extra: dict[str, Any], *, number: int) -> dict[str, Any]:

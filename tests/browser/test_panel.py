@@ -59,10 +59,9 @@ def test_the_status_buttons_show_the_status(server: Server, open_tab: Callable[.
     tab.wait_for("document.querySelector('.fr-statuses [aria-pressed=true]')")
     assert pressed() == ["To do"]
     tab.page.get_by_role("button", name="Approved").click()
-    # Nobody has looked at the caps yet, so it asks.
-    tab.page.get_by_role("alertdialog").get_by_role("button").last.click()
-    tab.saved()
+    tab.wait_for("document.querySelector('[data-fairyring-command=approved][aria-pressed=true]')")
     assert pressed() == ["Approved"]
+    tab.saved()
     tab.press("Control+z")
     tab.wait_for("document.querySelector('[data-fairyring-command=to_do][aria-pressed=true]')")
 
