@@ -52,6 +52,18 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
 
 @commands.command()
+def review(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Correct a bed of 60 caps and one of 214 in headless Chromium: inputs, a person's time, quality reached.
+
+    Example: `fairyring bench review --json`
+    """
+    with driving_a_browser():
+        from fairyring.app.bench.browser.review import review_rows
+
+    print_rows("review", review_rows(quick=quick), as_json=as_json)
+
+
+@commands.command()
 def page(*, quick: Quick = False, as_json: AsJson = False) -> None:
     """Time the server's start, and count requests and bytes of a first and a second visit to the page.
 

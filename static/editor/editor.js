@@ -168,6 +168,7 @@ export class Editor {
       state,
       frame: this.#frame,
       waiting: () => this.#unsaved,
+      asking: () => this.#found.busy,
       connection: () => this.#transport.state,
       tool: () => tool().name,
     });

@@ -12,9 +12,9 @@ import { toImage, toScreen } from "./geometry/view.js";
 
 /**
  * @param {HTMLElement} host
- * @param {{state: EditorState, frame: Frame, waiting: () => number, connection: () => string, tool: () => string}} editor
+ * @param {{state: EditorState, frame: Frame, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string}} editor
  */
-export function expose(host, { state: editorState, frame, waiting, connection, tool }) {
+export function expose(host, { state: editorState, frame, waiting, asking, connection, tool }) {
   const { viewport } = editorState;
   const view = {
     /**
@@ -59,6 +59,10 @@ export function expose(host, { state: editorState, frame, waiting, connection, t
     },
     get waiting() {
       return waiting();
+    },
+    /** Whether an answer of the network is waited for. */
+    get asking() {
+      return asking();
     },
     get connection() {
       return connection();

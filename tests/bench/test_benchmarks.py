@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from fairyring.app.bench.browser.editor import editor_rows
 from fairyring.app.bench.browser.page import page_rows
+from fairyring.app.bench.browser.review import review_rows
 from fairyring.app.bench.evaluation import evaluation_rows
 from fairyring.app.bench.fits import fit_rows
 from fairyring.app.bench.store import store_rows
@@ -62,6 +63,16 @@ def test_every_way_to_a_whole_outline_gives_the_same():
     assert [(row["value"], row["target"]) for row in apart] == [(0.0, 0.01)] * 3
 
 
+def test_a_bed_is_corrected_completely_and_the_inputs_are_counted():
+    rows = review_rows(quick=True)
+
+    assert _named(rows, "8 caps: S75")["value"] == 1.0
+    assert _named(rows, "8 caps: AP")["value"] >= _named(rows, "8 caps: AP")["reference"]
+    counted = [_named(rows, f"8 caps: {kind}")["value"] for kind in ("keys", "clicks", "strokes", "inputs")]
+    assert sum(counted[:3]) == counted[3] > 0
+    assert 0 < _named(rows, "8 caps: a person")["value"] < _named(rows, "8 caps: with a decision")["value"]
+
+
 def test_the_95th_percentile_stands_beside_that_of_the_reference():
     found = p95_row("work", [float(i) for i in range(101)], target=50, reference=[10.0] * 5)
 
@@ -85,7 +96,7 @@ def test_help_imports_nothing_heavy():
     assert HEAVY & set(done.stderr.split()) == set()
 
 
-@pytest.mark.parametrize("name", ["editor", "page", "store"])
+@pytest.mark.parametrize("name", ["editor", "page", "review", "store"])
 def test_without_playwright_a_benchmark_in_a_browser_says_what_to_type(name):
     script = (
         f"import sys; sys.argv = ['fairyring', 'bench', '{name}']; sys.modules['playwright'] = None\n"
