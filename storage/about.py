@@ -9,6 +9,7 @@ from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, func, select
 
 from fairyring.storage.db.schema import annotation, edit, image, prediction, run
+from fairyring.storage.derived import count_underived
 from fairyring.storage.folder import CACHE, IMAGES, TAKEN_OUT, WEIGHTS
 from fairyring.storage.project import Project
 from fairyring.storage.records import STATUSES
@@ -53,6 +54,8 @@ class Figures(Struct, frozen=True, kw_only=True):
     """How many of them have a mark."""
     ignored: int
     doubtful: int
+    lacking: int
+    """Caps and predictions whose whole outline is found when it is first needed."""
     predictions: int
     runs: list[RunFigures]
     people: list[PersonFigures]
@@ -76,6 +79,7 @@ def figures_of(project: Project) -> Figures:
             marks=_count(connection, counted & annotation.c.mark.is_not(None)),
             ignored=_count(connection, live & (annotation.c.ignored == 1)),
             doubtful=_count(connection, live & (annotation.c.doubtful == 1)),
+            lacking=count_underived(connection),
             predictions=_count(connection, prediction.c.id > 0),
             runs=_runs(connection),
             people=_people(connection),

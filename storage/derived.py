@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from msgspec import Struct
-from sqlalchemy import Connection, and_, bindparam, select, union, update
+from sqlalchemy import Connection, and_, bindparam, func, select, union, update
 
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.db.counters import recount
 from fairyring.storage.db.rows import values_of_annotation_fit, values_of_fit
-from fairyring.storage.db.schema import annotation, image, prediction
+from fairyring.storage.db.schema import annotation, prediction
 
 NONE: Mapping[Any, Fit] = MappingProxyType({})
 
@@ -22,8 +22,8 @@ class Underived(Struct, frozen=True, kw_only=True):
 
     annotations: list[str]
     """Uids of live annotations."""
-    predictions: list[int]
-    """Ids of predictions of the latest run that saw the image."""
+    predictions: dict[int, list[int]]
+    """Ids of predictions, by run in the order of the runs."""
 
 
 _ANNOTATION_LACKS = and_(
@@ -53,26 +53,42 @@ _STORE_PREDICTION = (
 )
 
 
-def images_with_underived(connection: Connection) -> list[int]:
-    """Ids of the images with such caps."""
-    of_latest_run = and_(image.c.id == prediction.c.image, image.c.run == prediction.c.run)
-    statement = union(
-        select(annotation.c.image).where(_ANNOTATION_LACKS),
-        select(prediction.c.image).join(image, of_latest_run).where(_PREDICTION_LACKS),
-    )
-    return sorted(connection.execute(statement).scalars())
+def images_with_underived(connection: Connection, image_ids: Iterable[int] | None = None) -> list[int]:
+    """Ids of the images with such caps, of all or among those named."""
+    annotations = select(annotation.c.image).where(_ANNOTATION_LACKS)
+    predictions = select(prediction.c.image).where(_PREDICTION_LACKS)
+    if image_ids is None:
+        return sorted(connection.execute(union(annotations, predictions)).scalars())
+    found: set[int] = set()
+    for one in image_ids:
+        of_one = union(
+            annotations.where(annotation.c.image == one), predictions.where(prediction.c.image == one)
+        )
+        found.update(connection.execute(of_one).scalars())
+    return sorted(found)
+
+
+def count_underived(connection: Connection) -> int:
+    """How many caps and predictions lack a whole outline."""
+    counts = [
+        connection.execute(select(func.count()).select_from(table).where(lacks)).scalar_one()
+        for table, lacks in ((annotation, _ANNOTATION_LACKS), (prediction, _PREDICTION_LACKS))
+    ]
+    return sum(counts)
 
 
 def underived_of(connection: Connection, image_id: int) -> Underived:
     """The caps of one image that lack a whole outline."""
-    latest = select(image.c.run).where(image.c.id == image_id).scalar_subquery()
     annotations = select(annotation.c.uid).where(annotation.c.image == image_id, _ANNOTATION_LACKS)
-    predictions = select(prediction.c.id).where(
-        prediction.c.image == image_id, prediction.c.run == latest, _PREDICTION_LACKS
+    predictions = select(prediction.c.run, prediction.c.id).where(
+        prediction.c.image == image_id, _PREDICTION_LACKS
     )
+    of_runs: dict[int, list[int]] = {}
+    for row in connection.execute(predictions.order_by(prediction.c.run, prediction.c.id)):
+        of_runs.setdefault(row.run, []).append(row.id)
     return Underived(
         annotations=list(connection.execute(annotations.order_by(annotation.c.id)).scalars()),
-        predictions=list(connection.execute(predictions.order_by(prediction.c.id)).scalars()),
+        predictions=of_runs,
     )
 
 

@@ -88,6 +88,16 @@ class Project:
             StoreError: a full or failing disk, a database locked by another program, or a read-only project.
         """
         self.require_writable()
+        return self.keep(work)
+
+    def keep(self, work: Callable[[Connection], T]) -> T:
+        """The same for what can be worked out again, as whole outlines.
+
+        A read-only project keeps it in the copy it is read from, which goes when it is closed.
+
+        Raises:
+            StoreError: as ``write``.
+        """
         if threading.current_thread().name.startswith("store"):
             raise RuntimeError("write() within write(): hand the connection on instead")
         return self._thread.submit(self._transact, work).result()

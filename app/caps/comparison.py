@@ -15,6 +15,7 @@ from typing import TypeVar
 
 import anyio.to_thread
 
+from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.caps.records import floor_of_mark, prediction_record, truth_record
 from fairyring.app.workers.crew import Run, here
@@ -70,6 +71,7 @@ def _near(outline: Outline, others: Mapping[Key, Outline]) -> list[Key]:
 
 def compare_image(project: Project, image_id: int, *, run: Run = here) -> Comparison | None:
     """Computes, by ``run``, and stores the figures of one image; None where no network has seen it."""
+    fill_in(project, [image_id], compute=one_by_one(run))
     with project.read() as connection:
         version = load_version(connection, image_id)
         image, latest = get_image(connection, image_id), load_latest_run(connection, image_id)

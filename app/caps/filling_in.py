@@ -1,9 +1,15 @@
-"""Works out whole outlines that the store lacks, image by image: after imports, before exports."""
+"""Works out whole outlines that the store lacks, image by image.
+
+An import stores what files say and no more; whatever reads whole outlines or centres calls `fill_in` first:
+for the images it reads. What is lacking stands in `storage.derived`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Sized
-from typing import TypeVar
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from contextlib import suppress
+from typing import Protocol, TypeVar
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,83 +17,133 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.fitting import Fitting, known_statistics
 from fairyring.app.caps.image_caps import caps_of
-from fairyring.app.workers.crew import Run, here
+from fairyring.app.workers.crew import Run
 from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.geometry.shapes import Fit
+from fairyring.model.processes import worked_on
 from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
-from fairyring.storage.contents import load_contents, load_predictions
+from fairyring.storage.contents import load_contents
+from fairyring.storage.errors import StoreError
 from fairyring.storage.images import keep_statistics
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image, ImageContents, Outline, Prediction
+from fairyring.storage.runs import predictions_by
 
 Key = TypeVar("Key")
+Task = TypeVar("Task")
+Found = TypeVar("Found")
+WHAT = "Finding whole outlines and centres"
 MOSTLY_NEW = 0.5
 """An image's statistics are measured anew where more than this share of its caps is to be fitted."""
+WORTH_PROCESSES = 12
+"""Images from which several processes are sooner done than one, which need not be started."""
+
+
+class Compute(Protocol):
+    """Calls a function with each of several tasks, in whatever process, and yields what it returns."""
+
+    def __call__(self, work: Callable[[Task], Found], tasks: Iterable[Task], /) -> Iterator[Found]: ...
+
+
+def one_by_one(run: Run) -> Compute:
+    """Computes by ``run``, one task after the other."""
+
+    def compute(work: Callable[[Task], Found], tasks: Iterable[Task], /) -> Iterator[Found]:
+        return (run(work, task) for task in tasks)
+
+    return compute
+
+
+def on_all_cores(work: Callable[[Task], Found], tasks: Iterable[Task], /) -> Iterator[Found]:
+    """Computes by as many processes as this one may use cores."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return worked_on(work, tasks, jobs=cores)
 
 
 def fill_in(
     project: Project,
     image_ids: Sequence[int] | None = None,
     *,
-    run: Run = here,
+    compute: Compute | None = None,
     progress: Progress = silent,
 ) -> int:
-    """Works out, by ``run``, every whole outline and centre that is missing; returns how many were stored.
+    """Works out every whole outline and centre that is missing; returns how many were stored.
 
-    ``image_ids`` None means the whole project. Each image is stored by itself, so that a later call goes on
-    where this one was stopped. In a read-only project they stay missing.
+    Args:
+        project: whose images; one that is read-only keeps them until it is closed.
+        image_ids: which; None for all.
+        compute: who does the work; None for this process, or for many images all cores.
+        progress: called once an image; what it raises ends the work, and a later call goes on there.
     """
-    if project.read_only:
-        return 0
-    if image_ids is None:
-        with project.read() as connection:
-            image_ids = derived.images_with_underived(connection)
+    with project.read() as connection:
+        lacking = derived.images_with_underived(connection, image_ids)
+    if compute is None:
+        compute = on_all_cores if len(lacking) >= WORTH_PROCESSES else map
     stored = 0
-    for done, image_id in enumerate(image_ids):
-        progress(done, len(image_ids), "Finding whole outlines and centres")
-        stored += _fill_in_image(project, image_id, run)
+    progress(0, len(lacking), WHAT)
+    tasks = (task for image_id in lacking if (task := _read(project, image_id)) is not None)
+    for done, found in enumerate(compute(_missing, tasks), start=1):
+        stored += _store(project, found)
+        progress(done, len(lacking), WHAT)
     return stored
 
 
-def _fill_in_image(project: Project, image_id: int, run: Run) -> int:
-    with project.read() as connection:
-        lacking = derived.underived_of(connection, image_id)
-        contents = load_contents(connection, image_id)
-        predictions = load_predictions(connection, image_id)
-    found = run(_missing, contents, lacking, predictions)
+class _Lacking(Struct, frozen=True, kw_only=True):
+    """An image, and what it lacks."""
 
-    def store(connection: Connection) -> int:
-        if found.statistics is not None:
-            keep_statistics(connection, image_id, found.statistics)
-        return derived.store_derived(
-            connection, image_id, annotations=found.annotations, predictions=found.predictions
-        )
-
-    return project.write(store)
+    contents: ImageContents
+    lacking: derived.Underived
+    said: dict[int, list[Prediction]]
+    """All that the runs said which lack any, by run."""
 
 
 class _Found(Struct, frozen=True, kw_only=True):
     """What was worked out for an image."""
 
+    image: int
     annotations: dict[tuple[str, int], Fit]
     """By uid and revision."""
     predictions: dict[int, Fit]
     statistics: dict[str, float] | None
 
 
-def _missing(
-    contents: ImageContents, lacking: derived.Underived, predictions: Sequence[Prediction]
-) -> _Found:
+def _read(project: Project, image_id: int) -> _Lacking | None:
+    """None where the image has been taken out meanwhile."""
+    with suppress(StoreError), project.read() as connection:
+        lacking = derived.underived_of(connection, image_id)
+        return _Lacking(
+            contents=load_contents(connection, image_id),
+            lacking=lacking,
+            said={run: predictions_by(connection, run, image_id) for run in lacking.predictions},
+        )
+    return None
+
+
+def _store(project: Project, found: _Found) -> int:
+    def store(connection: Connection) -> int:
+        if found.statistics is not None:
+            keep_statistics(connection, found.image, found.statistics)
+        return derived.store_derived(
+            connection, found.image, annotations=found.annotations, predictions=found.predictions
+        )
+
+    return project.keep(store)
+
+
+def _missing(task: _Lacking) -> _Found:
     """The fits that an image lacks."""
+    contents, lacking = task.contents, task.lacking
     image, caps = contents.image, caps_of(contents)
-    said = {prediction.id: prediction.visible for prediction in predictions}
+    predictions: dict[int, Fit] = {}
+    for run, wanted in lacking.predictions.items():
+        # What a run says is fitted by itself: what people correct is not the run's doing.
+        said = {prediction.id: prediction.visible for prediction in task.said[run]}
+        of_run = _fitting(contents.image, wanted, said)
+        predictions |= _fits(of_run, said, wanted)
+        if contents.run is not None and run == contents.run.id:
+            image = replace(image, statistics=of_run.statistics)
     unmarked = [uid for uid in lacking.annotations if caps.annotations[uid].cap.mark is None]
-    # What a run says is fitted by itself: what people correct is not the run's doing.
-    of_run = _fitting(image, lacking.predictions, said)
-    new_predictions = _fits(of_run, said, lacking.predictions)
-    if new_predictions:
-        image = replace(image, statistics=of_run.statistics)
     of_all = _fitting(image, unmarked if contents.run is None else (), caps.visible)
     annotations = _fits(of_all, caps.visible, unmarked)
     if annotations:
@@ -95,8 +151,9 @@ def _missing(
     marks = {uid: mark for uid in lacking.annotations if (mark := caps.annotations[uid].cap.mark) is not None}
     annotations |= {uid: reconstruction_of_mark(mark).fit for uid, mark in marks.items()}
     return _Found(
+        image=image.id,
         annotations={(uid, caps.annotations[uid].revision): fit for uid, fit in annotations.items()},
-        predictions=new_predictions,
+        predictions=predictions,
         statistics=image.statistics,
     )
 

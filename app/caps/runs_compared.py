@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msgspec import Struct
 
+from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.caps.records import prediction_record, truth_record
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.centre_figures import CapPairing, Evaluated, evaluated_pages
@@ -30,6 +31,7 @@ def compare_runs(
 
     Raises FairyringError where there is no such image.
     """
+    fill_in(project, progress=progress)
     pages: tuple[list[Page], list[Page]] = ([], [])
     with project.read() as connection:
         seen = {image.id for image in images_seen_by(connection, second.id)}

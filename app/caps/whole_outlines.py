@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import msgspec
 
+from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
 from fairyring.model.contour.marks import reconstruction_of_mark
@@ -88,6 +89,7 @@ def derive_edits(project: Project, edits: Sequence[Edit], *, known: ImageCaps | 
 
 def load_caps(project: Project, image_id: int) -> ImageCaps | None:
     """The caps of an image as they are stored; None where the project has no such image."""
+    fill_in(project, [image_id])
     with suppress(StoreError), project.read() as connection:
         return caps_of(load_contents(connection, image_id))
     return None

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fairyring.app.commands.ending import Stopped
 from fairyring.app.commands.import_report import print_report
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
@@ -19,6 +18,14 @@ from fairyring.storage.choices import ImportAs, ImportFormat, KnownCaps, Polygon
 if TYPE_CHECKING:
     from fairyring.storage.importing.paths import UnsaidError
     from fairyring.storage.importing.storing import ImportReport
+
+
+FEW = 1000
+"""The whole outlines of so many caps are found before anybody notices."""
+_LATER = (
+    "Whole outlines and centres of {lacking} caps are found when they are first needed: by serve in the "
+    "background, by export, by review."
+)
 
 
 def import_(
@@ -62,7 +69,7 @@ def import_(
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """
-    from fairyring.app.caps.filling_in import fill_in
+    from fairyring.storage.derived import count_underived
     from fairyring.storage.importing.intake import Facts
     from fairyring.storage.importing.paths import UnsaidError, import_paths
     from fairyring.storage.project import open_project
@@ -71,41 +78,35 @@ def import_(
         raise typer.BadParameter("a form is one of the letters a to h", param_hint="--form")
     known_caps = _known_caps(update=update, replace=replace, keep=keep)
 
-    def take(as_: ImportAs | None) -> ImportReport:
-        with open_project(folder) as project, steps_shown() as progress:
-            report = import_paths(
-                project,
-                paths,
-                kind=format_,
-                as_=as_,
-                polygons=polygons,
-                known_caps=known_caps,
-                strict=strict,
-                link=link,
-                unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
-                progress=progress,
-                user=by,
-            )
-            try:
-                fill_in(project, progress=progress)
-            except KeyboardInterrupt:
-                raise Stopped(_STORED.format(report=report)) from None
-        return report
+    def take(as_: ImportAs | None) -> tuple[ImportReport, int]:
+        with open_project(folder) as project:
+            with steps_shown() as progress:
+                report = import_paths(
+                    project,
+                    paths,
+                    kind=format_,
+                    as_=as_,
+                    polygons=polygons,
+                    known_caps=known_caps,
+                    strict=strict,
+                    link=link,
+                    unsaid=Facts(light=light, form=form, status=None if status is None else status.value),
+                    progress=progress,
+                    user=by,
+                )
+            with project.read() as connection:
+                return report, count_underived(connection)
 
     try:
-        report = take(as_)
+        report, lacking = take(as_)
     except UnsaidError as error:
         as_ = _asked(error)
-        report = take(as_)
+        report, lacking = take(as_)
     print_report(report, as_=as_, polygons=polygons, known_caps=known_caps, as_json=as_json)
+    if lacking > FEW:
+        typer.echo(_LATER.format(lacking=lacking), err=True)
     if report.useless:
         raise typer.Exit(1)
-
-
-_STORED = (
-    "Everything is stored: {report.images} images, {report.annotations} annotations, {report.predictions} "
-    "predictions. Whole outlines that are still missing are found by the next import, export or review."
-)
 
 
 def _asked(error: UnsaidError) -> ImportAs:

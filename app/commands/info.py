@@ -43,6 +43,7 @@ def _lines(figures: Figures) -> list[str]:
         f"{_besides({'ignored': figures.ignored, 'doubtful': figures.doubtful})}",
         f"splits: {_listed(splits) or 'none'}",
         f"predictions: {figures.predictions}",
+        *([f"whole outlines still to be found: {figures.lacking}"] if figures.lacking else []),
         *(
             f"  run {run.number}, {run.name}, {run.made_at[:16]}: {run.caps} caps in {run.images} images"
             for run in figures.runs

@@ -37,6 +37,7 @@ from fairyring.app.gateway.viser_client import load_viser, viser_file
 from fairyring.app.gateway.viser_page import page
 from fairyring.app.gateway.viser_relay import relay_to
 from fairyring.app.jobs.exports import exports_folder
+from fairyring.app.live.missing_outlines import find_other_outlines
 from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
@@ -112,6 +113,7 @@ def make_app(workspace: Workspace, *, door: Door | None) -> ASGIApp:
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
         panels = await asyncio.to_thread(partial(start_viser, upstream, label=workspace.project.name))
         _greet(panels, workspace, asyncio.get_running_loop())
+        await find_other_outlines(workspace)
         watching = asyncio.create_task(watch(workspace))
         try:
             yield

@@ -8,7 +8,7 @@ from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
 
 from fairyring.app.addresses import download_address
-from fairyring.app.caps.filling_in import fill_in
+from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.jobs.runner import Result
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
@@ -30,7 +30,7 @@ def export_work(project: Project, *, only: Only, run: Run = here) -> Callable[[P
     """The work of an export job: whole outlines that are missing, the data set, the zip file."""
 
     def work(progress: Progress) -> Result:
-        fill_in(project, run=run, progress=progress)
+        fill_in(project, compute=one_by_one(run), progress=progress)
         exports = exports_folder(project)
         exports.mkdir(parents=True, exist_ok=True)
         with temporary_folder(exports) as folder:

@@ -15,6 +15,7 @@ import numpy as np
 import torch
 from sqlalchemy import Connection
 
+from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.caps.fitting import fitted_anew
 from fairyring.app.jobs.pace import note_pace
 from fairyring.app.workers.crew import Run, here
@@ -197,6 +198,8 @@ def predict_images(
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         began = time.monotonic()
+        # What people labelled is fitted by what was measured on it, before the run's own takes its place.
+        fill_in(project, [image.id], compute=one_by_one(compute))
         try:
             new, statistics = predictions_in(finder, project.originals.path_of(image), image, compute)
         except FairyringError as error:

@@ -21,6 +21,8 @@ log = logging.getLogger(__name__)
 
 State = Literal["running", "done", "failed", "cancelled"]
 
+ITSELF = "Fairyring"
+"""Who started a job that nobody asked for."""
 KEPT = 12
 """How many finished jobs stay listed."""
 UNEXPECTED = "This stopped because of an error in Fairyring itself; the server's log says more."
@@ -60,6 +62,10 @@ class Job:
         self.done, self.total, self.what = done, total, what
         if total and (self._counted is None or done < self._counted[1]):
             self._counted = (time.monotonic(), done)
+
+    def may_be_cancelled_by(self, user: str) -> bool:
+        """Whether it is this person's own, or nobody's."""
+        return self.user in (user, ITSELF)
 
     @property
     def seconds_left(self) -> float | None:

@@ -8,6 +8,7 @@ from typing import Literal
 from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
+from fairyring.app.live.missing_outlines import find_outlines_of
 from fairyring.app.live.session import Selection, Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Predicted, Show
@@ -34,6 +35,7 @@ async def open_image(
 ) -> None:
     """Shows an image in a tab. Raises StoreError where the project has no such image."""
     which, shown = session.filter, None
+    await find_outlines_of(workspace, image_id)
     # Until the tab shows the image it hears of no changes to it, so a look back follows.
     while shown is None or await workspace.read(lambda c: load_version(c, image_id)) != shown.version:
         shown = await workspace.read(lambda c: _find(workspace, c, image_id, which))

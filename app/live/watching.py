@@ -8,6 +8,7 @@ import logging
 import anyio.to_thread
 from sqlalchemy import Connection
 
+from fairyring.app.live.missing_outlines import find_other_outlines, find_outlines_of
 from fairyring.app.live.opening import CHANGES_IMAGE, reopen
 from fairyring.app.live.session import Session
 from fairyring.app.live.statuses import tell_status
@@ -47,6 +48,7 @@ async def catch_up(workspace: Workspace) -> None:
     """Brings every tab up to what the store holds now."""
     await leave_missing(workspace)
     for image_id in {tab.image.id for tab in workspace.tabs if tab.image is not None}:
+        await find_outlines_of(workspace, image_id)
         _, contents = await workspace.read(lambda c, i=image_id: workspace.recent.load(c, i))
         for tab in workspace.tabs.others_on(image_id):
             gone = await workspace.read(lambda c, t=tab, now=contents: _deleted(c, t, now))
@@ -55,6 +57,7 @@ async def catch_up(workspace: Workspace) -> None:
         if tab.image is None and tab.outbox is not None:
             await reopen(workspace, tab, None)
     workspace.refresh(*CHANGES_IMAGE, "predict")
+    await find_other_outlines(workspace)
 
 
 def _deleted(connection: Connection, tab: Session, contents: ImageContents) -> list[Annotation]:

@@ -13,7 +13,7 @@ import anyio.to_thread
 from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import Reviewer
-from fairyring.app.jobs.runner import Job, Jobs, Result
+from fairyring.app.jobs.runner import ITSELF, Job, Jobs, Result
 from fairyring.app.live.read_ahead import RecentImages
 from fairyring.app.live.session import Session, Tabs
 from fairyring.app.settings import Settings
@@ -66,10 +66,18 @@ class Workspace:
 
         def finished(job: Job) -> None:
             session.notify(f"{job.title}: {job.message}", "error" if job.state == "failed" else "info")
-            self.refresh("status", "jobs", "predict", "learning", "review", "images")
+            self._show_end()
 
         self.jobs.start(title, work, user=session.user, finished=finished)
         self.refresh("status", "jobs")
+
+    def start_own_job(self, title: str, work: Callable[[Progress], Result]) -> None:
+        """Starts long work that nobody asked for, which anybody may stop."""
+        self.jobs.start(title, work, user=ITSELF, finished=lambda _job: self._show_end())
+        self.refresh("status", "jobs")
+
+    def _show_end(self) -> None:
+        self.refresh("status", "jobs", "predict", "learning", "review", "images")
 
     def read_ahead(self, image_ids: Sequence[int]) -> None:
         """Loads images that somebody is likely to open next, in the background."""

@@ -12,7 +12,7 @@ from fairyring.app.protocol import JobProgress
 
 
 def progress_line(job: Job, *, own: bool) -> Markup:
-    """The line of a job at work; one's ``own`` can be cancelled."""
+    """The line of a job at work; one's ``own`` can be cancelled, and what nobody asked for."""
     cancel = element("button", "Cancel", type="button", data_fairyring_cancel=job.id) if own else None
     return element(
         "div",

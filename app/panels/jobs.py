@@ -64,9 +64,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def cancel(workspace: Workspace, session: Session, number: int) -> None:
-    """Stops a job that the person at this tab has started."""
+    """Stops a job that the person at this tab has started, or nobody."""
     job = workspace.jobs.find(number)
-    if job is not None and job.user == session.user:
+    if job is not None and job.may_be_cancelled_by(session.user):
         job.cancel()
 
 

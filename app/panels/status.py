@@ -34,7 +34,7 @@ def header(session: Session, *, project: str, jobs: Sequence[Job]) -> Markup:
         "header",
         element("div", *_image_line(session), class_="fr-line"),
         element("div", *_person_line(session, project), class_="fr-line fr-quiet"),
-        *(progress_line(job, own=job.user == session.user) for job in jobs),
+        *(progress_line(job, own=job.may_be_cancelled_by(session.user)) for job in jobs),
         class_="fr-header",
     )
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from msgspec import structs, to_builtins
 
+from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.caps.records import floor_of_mark, sd_of_mark
 from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
 from fairyring.model.evaluate.cap_rows import Measured, measured_caps
@@ -73,6 +74,7 @@ def review_of(project: Project, *, only_sure: bool = False, progress: Progress =
     pages: list[Page] = []
     caps: list[ReviewedCap] = []
     left_out = 0
+    fill_in(project, progress=progress)
     with project.read() as connection:
         numbers, untouched = worked_on(connection)
         for done, seen in enumerate(reviewed_images(connection, numbers)):

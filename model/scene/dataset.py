@@ -16,9 +16,9 @@ import msgspec
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.coco.writing import DECIMALS, occlusion_keys, outline_keys, rounded, shape_keys
+from fairyring.model.processes import worked_on
 from fairyring.model.progress import Progress, silent
 from fairyring.model.scene.bed import Bed, render_bed
-from fairyring.model.scene.processes import worked_on
 from fairyring.model.scene.settings import SceneError, Settings
 from fairyring.model.scene.truth import BedCap
 

@@ -43,7 +43,7 @@ DRAWINGS = {
         contour  predict
         network  coco  colour
         geometry  photo  device  json_files  json_values
-        errors  progress  light_and_form  whole_files
+        errors  progress  light_and_form  whole_files  processes
     """,
 }
 OTHER_PACKAGES = {

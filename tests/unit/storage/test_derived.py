@@ -2,7 +2,13 @@ import pytest
 
 from fairyring.model.geometry.shapes import Circle, Fit
 from fairyring.storage.contents import load_contents
-from fairyring.storage.derived import Underived, images_with_underived, store_derived, underived_of
+from fairyring.storage.derived import (
+    Underived,
+    count_underived,
+    images_with_underived,
+    store_derived,
+    underived_of,
+)
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
@@ -34,8 +40,8 @@ def lacking(beds, square):
 def test_what_lacks_a_whole_outline_is_found_until_it_is_stored(lacking):
     with lacking.read() as connection:
         assert images_with_underived(connection) == [1]
-        assert underived_of(connection, 1) == Underived(annotations=["a"], predictions=[1])
-        assert underived_of(connection, 2) == Underived(annotations=[], predictions=[])
+        assert underived_of(connection, 1) == Underived(annotations=["a"], predictions={1: [1]})
+        assert underived_of(connection, 2) == Underived(annotations=[], predictions={})
 
     def store(connection):
         return store_derived(connection, 1, annotations={("a", 1): FIT}, predictions={1: FIT})
@@ -71,11 +77,19 @@ def test_a_fit_of_an_older_revision_is_dropped(lacking, square):
         assert stored_annotation(connection, "a").whole is None
 
 
-def test_predictions_of_an_older_run_are_left_alone(lacking):
+def test_predictions_of_an_older_run_are_found_too(lacking, square):
     def later(connection):
         run = add_run(connection, name="later", kind="simulated")
-        add_predictions(connection, run_id=run.id, image_id=1, predictions=[])
+        new = [NewPrediction(visible=square, score=0.5)]
+        add_predictions(connection, run_id=run.id, image_id=1, predictions=new)
 
     lacking.write(later)
     with lacking.read() as connection:
-        assert underived_of(connection, 1).predictions == []
+        assert underived_of(connection, 1).predictions == {1: [1], 2: [2]}
+
+
+def test_what_is_lacking_is_counted_and_found_among_some_images(lacking):
+    with lacking.read() as connection:
+        assert count_underived(connection) == 2
+        assert images_with_underived(connection, [2]) == []
+        assert images_with_underived(connection, [2, 1]) == [1]

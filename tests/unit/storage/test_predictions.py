@@ -179,4 +179,4 @@ def test_a_cap_without_a_whole_outline_keeps_the_reason(beds, square):
         add_predictions(connection, run_id=run.id, image_id=1, predictions=[new])
         return underived_of(connection, 1).predictions
 
-    assert beds.write(work) == [], "nobody needs to try again"
+    assert beds.write(work) == {}, "nobody needs to try again"

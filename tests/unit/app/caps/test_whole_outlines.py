@@ -31,6 +31,8 @@ def image_with(*annotations: Annotation) -> ImageCaps:
 
 
 def contents_of(project: Project) -> ImageCaps:
+    """As a tab has them."""
+    fill_in(project, [1])
     with project.read() as connection:
         return caps_of(load_contents(connection, 1))
 

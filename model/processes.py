@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -15,22 +16,32 @@ import cv2
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+AHEAD = 2
+"""So many tasks for each process are handed over before it asks for them."""
 
 
-def worked_on(work: Callable[[Task], Result], tasks: Sequence[Task], *, jobs: int) -> Iterator[Result]:
+def worked_on(work: Callable[[Task], Result], tasks: Iterable[Task], *, jobs: int) -> Iterator[Result]:
     """What ``work`` makes of each task, as it comes; with one job in this process, else in that many.
 
+    Tasks are taken a few at a time, so that all of them need never be there at once.
     Raises BrokenProcessPool (a RuntimeError) where one of them is ended from outside.
     """
-    if jobs == 1 or not tasks:
+    if jobs == 1:
         yield from map(work, tasks)
         return
+    waiting = iter(tasks)
     pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=_begin)
     try:
-        with _ctrl_c_held_back():
-            futures = [pool.submit(work, task) for task in tasks]
-        for future in as_completed(futures):
-            yield future.result()
+        futures: set[Future[Result]] = set()
+        while True:
+            for task in itertools.islice(waiting, AHEAD * jobs - len(futures)):
+                with _ctrl_c_held_back():
+                    futures.add(pool.submit(work, task))
+            if not futures:
+                return
+            done, futures = wait(futures, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield future.result()
     finally:
         pool.shutdown(cancel_futures=True)
 

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from fairyring.model.scene.processes import worked_on
+from fairyring.model.processes import worked_on
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 PARENT = """
-from fairyring.model.scene.processes import worked_on
-from tests.unit.model.scene.test_processes import announce
+from fairyring.model.processes import worked_on
+from tests.unit.model.test_processes import announce
 list(worked_on(announce, [60, 60], jobs=2))
 """
 
