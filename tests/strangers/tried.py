@@ -6,6 +6,7 @@ import sqlite3
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import msgspec
 from typer.testing import CliRunner
@@ -55,9 +56,10 @@ def tried(stranger: Stranger, folder: Path) -> Outcome:
     table = "prediction" if stranger.predictions else "annotation"
     with closing(sqlite3.connect(project / "project.db")) as connection:
         (photos,) = connection.execute("SELECT count(*) FROM image").fetchone()
-        rows = connection.execute(f"SELECT * FROM {table} ORDER BY image, centre_x")
+        rows = connection.execute(f"SELECT * FROM {table}")
         names = [column[0] for column in rows.description]
-        caps = [_cap(dict(zip(names, row, strict=True))) for row in rows]
+        found = [dict(zip(names, row, strict=True)) for row in rows]
+    caps = [cap for _, cap in sorted(((row["image"], _cap(row)) for row in found), key=_from_the_left)]
     return Outcome(
         exit_code=done.exit_code,
         photos=photos,
@@ -69,7 +71,13 @@ def tried(stranger: Stranger, folder: Path) -> Outcome:
     )
 
 
-def _cap(row: dict[str, str]) -> Cap:
+def _from_the_left(found: tuple[int, Cap]) -> tuple[int, float]:
+    """Image by image, by the centres along x."""
+    image, cap = found
+    return image, cap.centre[0]
+
+
+def _cap(row: dict[str, Any]) -> Cap:
     visible = msgspec.json.decode(row["visible"], type=list[list[float]])
     is_doubtful = bool(row.get("doubtful"))
     if not visible:
