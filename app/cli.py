@@ -20,6 +20,7 @@ from fairyring.app.commands import (
     network,
     project,
     review,
+    rules,
     runs,
     serve,
     synth,
@@ -54,6 +55,7 @@ app.command("predict")(network.predict)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
 app.command("review")(review.review)
+app.command("rules")(rules.rules)
 app.add_typer(evaluate.commands, name="evaluate")
 app.add_typer(runs.commands, name="runs")
 app.add_typer(benchmarks.commands, name="bench")

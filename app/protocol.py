@@ -21,6 +21,7 @@ from fairyring.storage.records import (
     Prediction,
     Status,
     StatusEdit,
+    Verdict,
 )
 
 
@@ -54,6 +55,7 @@ class Edits(FromEditor, frozen=True, tag="edits"):
 
     edits: list[Edit]
     statuses: list[StatusEdit] = field(default_factory=list)
+    verdicts: list[Verdict] = field(default_factory=list)
 
 
 class Refit(FromEditor, frozen=True, tag="refit"):
@@ -78,6 +80,12 @@ class FindCap(FromEditor, frozen=True, tag="find_cap"):
     """Of each point, whether it is to be on the cap; the first is."""
     box: tuple[float, float, float, float] | None = None
     """Left, top, right, bottom."""
+
+
+class Compare(FromEditor, frozen=True, tag="compare"):
+    """Asks where annotations and predictions of an image differ, for a reviewer."""
+
+    image: int
 
 
 class Select(FromEditor, frozen=True, tag="select"):
@@ -132,7 +140,20 @@ class Cancel(FromEditor, frozen=True, tag="cancel"):
 
 
 Incoming = (
-    Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap
+    Hello
+    | Open
+    | Step
+    | Edits
+    | Refit
+    | Select
+    | Recall
+    | Saving
+    | Window
+    | Tag
+    | Predict
+    | Cancel
+    | FindCap
+    | Compare
 )
 
 
@@ -180,6 +201,26 @@ class FoundCap(FromServer, frozen=True, tag="found_cap"):
     visible: Outline | None
     """None where the network sees no cap."""
     score: float | None
+
+
+class ComparedCap(Struct, frozen=True, kw_only=True):
+    """A cap with the prediction that matches it; one of the two is None where there is no other."""
+
+    annotation: str | None
+    prediction: Prediction | None
+    iou: float | None
+    """IoU of the visible outlines."""
+    cdr: float | None
+    """CDR, percent (Eq. 10); None where the cap has no mark."""
+    floor: float | None
+    """CDR that the mark has by itself, percent."""
+
+
+class Compared(FromServer, frozen=True, tag="compared"):
+    """Answers Compare: all caps, those first that differ most."""
+
+    image: int
+    caps: list[ComparedCap]
 
 
 class StatusChanged(FromServer, frozen=True, tag="status"):
@@ -267,6 +308,7 @@ Outgoing = (
     | Changed
     | Predicted
     | FoundCap
+    | Compared
     | Fitted
     | JobProgress
     | Command

@@ -6,7 +6,7 @@ from sqlalchemy import Connection, insert, select
 
 from fairyring.storage.cap_validity import check_name
 from fairyring.storage.db.schema import change_set
-from fairyring.storage.records import Edit, StatusEdit
+from fairyring.storage.records import Edit, StatusEdit, Verdict
 
 
 class ChangeSets:
@@ -18,10 +18,11 @@ class ChangeSets:
         self._known: dict[tuple[int, str], int] = {}
         self._unnamed: dict[int, str] = {}
 
-    def number_of(self, edit: Edit | StatusEdit, *, time: str) -> int:
+    def number_of(self, edit: Edit | StatusEdit | Verdict, *, time: str) -> int:
         """The number of an edit's change set. Edits that name none are together in one an image."""
         name = edit.change_set or self._unnamed.setdefault(edit.image, edit.id)
-        return self.number(edit.image, name, takes_back=edit.takes_back, time=time)
+        takes_back = "" if isinstance(edit, Verdict) else edit.takes_back
+        return self.number(edit.image, name, takes_back=takes_back, time=time)
 
     def number(self, image: int, name: str, *, takes_back: str = "", time: str) -> int:
         """The number of the change set of this name, made at ``time`` unless it is there already."""
@@ -44,8 +45,8 @@ class ChangeSets:
         return self._connection.execute(entered.returning(change_set.c.sequence)).scalar_one()
 
 
-def check_change_set(edit: Edit | StatusEdit) -> None:
+def check_change_set(edit: Edit | StatusEdit | Verdict) -> None:
     """Raises StoreError where what an edit says of change sets cannot be their number."""
-    for name in (edit.change_set, edit.takes_back):
+    for name in (edit.change_set, "" if isinstance(edit, Verdict) else edit.takes_back):
         if name:
             check_name(name, "number of a change set")

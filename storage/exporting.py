@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -27,11 +28,14 @@ from fairyring.storage.formats.coco_writing import (
 )
 from fairyring.storage.project import Project
 from fairyring.storage.provenance import origins_of, standing_of
-from fairyring.storage.records import Annotation, Image, Prediction, Run, is_complete
+from fairyring.storage.records import Annotation, GivenVerdict, Image, Prediction, Run, is_complete
 from fairyring.storage.runs import images_seen_by, latest_runs_of, predictions_by, require_run
+from fairyring.storage.verdicts import all_verdicts
 from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
+Verdicts = defaultdict[tuple[int, str | None], list[GivenVerdict]]
+"""What was said of each image, and of each cap by its uid."""
 BESIDE_ANNOTATIONS = 1 << 31
 """Added to the numbers of predictions that are exported beside annotations, which have lower ones."""
 
@@ -112,8 +116,15 @@ def export_coco(
         runs = _runs(connection, images, wanted)
         categories = connection.execute(_CATEGORIES).all()
         licenses: list[dict[str, Any]] = []
+        verdicts = _verdicts(connection)
         listed = [
-            image_entry(image, sha256=hashes[image.id], partial=_is_partial(image, only), licenses=licenses)
+            image_entry(
+                image,
+                sha256=hashes[image.id],
+                partial=_is_partial(image, only),
+                licenses=licenses,
+                verdicts=verdicts[image.id, None],
+            )
             for image in images
         ]
         head = {
@@ -126,7 +137,7 @@ def export_coco(
         numbers = {row.name: row.id for row in categories}
         caps = _caps(connection, images, wanted, progress=progress)
         with (folder / "instances.json").open("wb") as file:
-            count = write_document(file, head, _entries(connection, caps, numbers))
+            count = write_document(file, head, _entries(connection, caps, numbers, verdicts))
         if results is not None:
             caps = _caps(connection, images, wanted, progress=progress)
             write_results(results, _results(caps, numbers))
@@ -202,8 +213,18 @@ def _loader(connection: Connection, wanted: Wanted) -> Callable[[Image], list[tu
     return load
 
 
+def _verdicts(connection: Connection) -> Verdicts:
+    given: Verdicts = defaultdict(list)
+    for each in all_verdicts(connection):
+        given[each.image, each.annotation].append(each)
+    return given
+
+
 def _entries(
-    connection: Connection, caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]
+    connection: Connection,
+    caps: Iterator[tuple[Image, int, Cap]],
+    categories: dict[str, int],
+    verdicts: Verdicts,
 ) -> Iterator[dict[str, Any]]:
     of_image, origins = 0, {}
     for image, number, cap in caps:
@@ -212,7 +233,14 @@ def _entries(
             if of_image != image.id:
                 of_image, origins = image.id, origins_of(connection, image.id)
             category = categories[cap.cap.category]
-            yield annotation_entry(cap, number=number, size=size, category=category, origin=origins[cap.uid])
+            yield annotation_entry(
+                cap,
+                number=number,
+                size=size,
+                category=category,
+                origin=origins[cap.uid],
+                verdicts=verdicts[image.id, cap.uid],
+            )
         else:
             category = categories[cap.category]
             yield prediction_entry(cap, number=number, size=size, category=category)

@@ -12,7 +12,8 @@ from sqlalchemy import Connection, Row, func, select
 from fairyring.storage.db.schema import change_set, edit, status_change
 from fairyring.storage.images import get_image
 from fairyring.storage.ledger import chunks, stored_annotations
-from fairyring.storage.records import Annotation, Cap, Status
+from fairyring.storage.records import Annotation, Cap, GivenVerdict, Status
+from fairyring.storage.verdicts import verdicts_by_change_set
 
 MOST_TRIED = 200
 """Of how many change sets it is looked up whether they can be taken back."""
@@ -37,6 +38,8 @@ class ChangeSet(Struct, frozen=True, kw_only=True):
     brought_back: int = 0
     status: tuple[Status, Status] | None = None
     """The status before and after, where it was changed."""
+    verdict: GivenVerdict | None = None
+    """What was said of the image or of a cap."""
     first: tuple[str, Cap | None, Cap | None] | None = None
     """The first of its caps: uid, before and after."""
     taken_back: bool = False
@@ -84,7 +87,7 @@ def list_change_sets(
     numbers = [row.sequence for row in rows]
     takes_back = _takes_back(connection, image_id)
     effects, firsts = _effects(connection, numbers), _firsts(connection, numbers)
-    statuses = _statuses(connection, numbers)
+    statuses, verdicts = _statuses(connection, numbers), verdicts_by_change_set(connection, numbers)
     return ChangeSetPage(
         change_sets=[
             ChangeSet(
@@ -93,6 +96,7 @@ def list_change_sets(
                 made_at=row.made_at,
                 **effects[row.sequence],
                 status=statuses.get(row.sequence),
+                verdict=verdicts.get(row.sequence),
                 first=firsts.get(row.sequence),
                 taken_back=row.id in takes_back.values(),
                 kind=_kind(row.id, takes_back),

@@ -17,9 +17,20 @@ from fairyring.storage.db import schema
 from fairyring.storage.db.counters import recount
 from fairyring.storage.db.rows import AnyRow, ensure_category, require_image
 from fairyring.storage.errors import StoreError
+from fairyring.storage.judging import commit_verdict
 from fairyring.storage.ledger import Ledger, open_ledger, stored_annotations, stored_digests
 from fairyring.storage.project import Project
-from fairyring.storage.records import Accepted, Annotation, Cap, Conflict, Edit, Outcome, Refused, StatusEdit
+from fairyring.storage.records import (
+    Accepted,
+    Annotation,
+    Cap,
+    Conflict,
+    Edit,
+    Outcome,
+    Refused,
+    StatusEdit,
+    Verdict,
+)
 from fairyring.storage.statuses import commit_status, follow_edits
 
 
@@ -49,13 +60,18 @@ class Entry(Struct, frozen=True, kw_only=True):
 
 
 def commit(
-    project: Project, edits: Sequence[Derived], *, statuses: Sequence[StatusEdit] = (), user: str
+    project: Project,
+    edits: Sequence[Derived],
+    *,
+    statuses: Sequence[StatusEdit] = (),
+    verdicts: Sequence[Verdict] = (),
+    user: str,
 ) -> list[Outcome]:
     """Stores a change set, or a piece of one, in one transaction; on disk when this returns.
 
     Caps are checked and repaired before it begins, so that nobody else waits for that. Each edit has an
-    outcome of its own, in order, those of ``statuses`` last: a conflict or a refusal does not keep the others
-    out. An edit sent before is accepted again, with the annotation as it is now.
+    outcome of its own, in order, then those of ``statuses`` and of ``verdicts``: a conflict or a refusal does
+    not keep the others out. An edit sent before is accepted again, with the annotation as it is now.
 
     Raises:
         StoreError: the database cannot be written, or ``user`` is no name.
@@ -64,16 +80,17 @@ def commit(
     try:
         project.require_writable()
     except StoreError as error:
-        numbers = [*(derived.edit.id for derived in edits), *(made.id for made in statuses)]
+        numbers = [each.id for each in [*(derived.edit for derived in edits), *statuses, *verdicts]]
         return [Refused(edit=number, reason=str(error)) for number in numbers]
-    if not edits and not statuses:
+    if not edits and not statuses and not verdicts:
         return []
     checked = _check_caps(project, edits)
 
     def work(connection: Connection) -> list[Outcome]:
         outcomes = _commit_all(connection, edits, checked, user=user)
         sets = ChangeSets(connection, user=user)
-        return outcomes + [commit_status(connection, made, sets, user=user) for made in statuses]
+        outcomes += [commit_status(connection, made, sets, user=user) for made in statuses]
+        return outcomes + [commit_verdict(connection, said, sets, user=user) for said in verdicts]
 
     return project.write(work)
 

@@ -22,6 +22,9 @@ IMPORT = "import"
 """Who the journal names for what a file says, unless somebody stands by it."""
 Status = Literal["new", "annotated", "approved"]
 STATUSES: tuple[Status, ...] = get_args(Status)
+Says = Literal["approved", "rejected", "sent_back", "comment", "withdrawn"]
+"""What a verdict says: right; not to be used, and why; to be worked on again, and what is wrong; anything
+else; that the verdict before it holds no longer, as somebody has set another status or undone it."""
 
 
 def is_complete(status: Status) -> bool:
@@ -138,6 +141,43 @@ class StatusEdit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, 
     takes_back: str = ""
 
 
+class Verdict(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
+    """What a reviewer says of an image or of one cap of it, as the browser sends it."""
+
+    id: str
+    """Chosen by the browser: the same id a second time changes nothing."""
+    image: int
+    annotation: str | None = None
+    """The cap; None where it is about the image."""
+    says: Says
+    words: str = ""
+    """The reason, or the comment."""
+    change_set: str = ""
+
+
+class GivenVerdict(Struct, frozen=True, kw_only=True):
+    """A verdict as it is kept."""
+
+    number: int
+    """Grows with every verdict of the project."""
+    image: int
+    annotation: str | None
+    revision: int | None
+    """Of the cap when this was said of it; None where it is about the image."""
+    says: Says
+    words: str
+    user: str
+    made_at: str
+    """UTC, ISO 8601."""
+
+
+class Rules(Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """How people work in a project."""
+
+    approve_own: bool = False
+    """Whether somebody may approve what they have labelled themselves."""
+
+
 class Accepted(Struct, frozen=True, kw_only=True, tag="accepted", tag_field="outcome"):
     """The edit is on disk (now, or when it was first sent)."""
 
@@ -162,7 +202,7 @@ class Refused(Struct, frozen=True, kw_only=True, tag="refused", tag_field="outco
 
 
 class StatusStored(Struct, frozen=True, kw_only=True, tag="status", tag_field="outcome"):
-    """The change of status is on disk (now, or when it was first sent)."""
+    """The change of status, or the verdict, is on disk (now, or when it was first sent)."""
 
     edit: str
     image: int

@@ -16,7 +16,20 @@ from fairyring.storage.db.rows import image_of, require_image
 from fairyring.storage.db.schema import edit, image, status_change
 from fairyring.storage.errors import StoreError
 from fairyring.storage.ledger import stored_annotations
-from fairyring.storage.records import STATUSES, Cap, Image, Outcome, Refused, Status, StatusEdit, StatusStored
+from fairyring.storage.own_work import require_work_of_others
+from fairyring.storage.records import (
+    STATUSES,
+    Cap,
+    Image,
+    Outcome,
+    Refused,
+    Says,
+    Status,
+    StatusEdit,
+    StatusStored,
+    Verdict,
+)
+from fairyring.storage.verdicts import enter_verdict, latest_verdict
 
 
 def set_status(connection: Connection, image_id: int, status: Status, *, user: str) -> Image:
@@ -31,7 +44,7 @@ def set_status(connection: Connection, image_id: int, status: Status, *, user: s
     before = require_image(connection, image_id).status
     if before != status:
         made = StatusEdit(id=uuid4().hex, image=image_id, before=before, after=status)
-        _record(connection, made, ChangeSets(connection, user=user), user=user)
+        _say(connection, made, ChangeSets(connection, user=user), user=user)
     return image_of(require_image(connection, image_id))
 
 
@@ -44,7 +57,9 @@ def commit_status(connection: Connection, made: StatusEdit, sets: ChangeSets, *,
         if not _was_sent_before(connection, made):
             if photo.status != made.before:
                 raise StoreError(_overtaken(connection, image_of(photo)))
-            _record(connection, made, sets, user=user)
+            if made.after == "approved":
+                require_work_of_others(connection, made.image, user=user)
+            _say(connection, made, sets, user=user)
     except FairyringError as error:
         return Refused(edit=made.id, reason=str(error))
     return StatusStored(edit=made.id, image=made.image, status=require_image(connection, made.image).status)
@@ -114,7 +129,25 @@ def _overtaken(connection: Connection, photo: Image) -> str:
     return f"{last or 'Somebody'} has set {photo.file_name} to “{words}” meanwhile; it stays so."
 
 
-def _record(connection: Connection, made: StatusEdit, sets: ChangeSets, *, user: str) -> None:
+def _say(connection: Connection, made: StatusEdit, sets: ChangeSets, *, user: str) -> None:
+    """Enters the status, and the verdict that it is."""
+    record_status(connection, made, sets, user=user)
+    if (says := _verdict_of(connection, made)) is not None:
+        said = Verdict(id=f"status-{made.id}", image=made.image, says=says)
+        number = sets.number_of(made, time=now())
+        enter_verdict(connection, said, revision=None, change_set=number, user=user)
+
+
+def _verdict_of(connection: Connection, made: StatusEdit) -> Says | None:
+    """Setting an image to approved approves it; setting it to something else, or undoing, ends a verdict."""
+    if made.after == "approved":
+        return "approved"
+    ended = ("approved", "rejected", "sent_back") if made.takes_back else ("approved",)
+    return "withdrawn" if latest_verdict(connection, made.image) in ended else None
+
+
+def record_status(connection: Connection, made: StatusEdit, sets: ChangeSets, *, user: str) -> None:
+    """Enters a change of status in the history, and the status as it is now."""
     time = now()
     connection.execute(update(image).where(image.c.id == made.image).values(status=made.after))
     connection.execute(

@@ -32,6 +32,7 @@ TABLES: tuple[Table, ...] = (
     schema.change_set,
     schema.edit,
     schema.status_change,
+    schema.verdict,
     schema.comparison,
 )
 """Those that hold something of an image, in the order in which rows refer to others."""

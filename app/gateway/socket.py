@@ -18,6 +18,7 @@ from fairyring.app.live.editing import Refits, apply_edits
 from fairyring.app.live.finding import Finding
 from fairyring.app.live.opening import open_image, reopen, step
 from fairyring.app.live.recalling import recall
+from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
 from fairyring.app.live.tagging import tag
 from fairyring.app.live.workspace import Workspace
@@ -28,6 +29,8 @@ from fairyring.app.panels.predict import predict_one
 from fairyring.app.panels.window import follow_window
 from fairyring.app.protocol import (
     Cancel,
+    Compare,
+    Compared,
     Edits,
     FindCap,
     FromServer,
@@ -133,7 +136,7 @@ async def _send_all(socket: WebSocket, outbox: asyncio.Queue[FromServer]) -> Non
 
 async def _encode(message: FromServer) -> str:
     """A message as JSON; encoded in a thread where it may be large."""
-    if isinstance(message, Show | Predicted | Recalled):
+    if isinstance(message, Show | Predicted | Recalled | Compared):
         return (await anyio.to_thread.run_sync(_outgoing.encode, message)).decode()
     return _outgoing.encode(message).decode()
 
@@ -192,17 +195,19 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
         case Saving(waiting=waiting):
             session.waiting = waiting
             session.refresh("status")
-        case Window() | Tag() | Predict() | Cancel():
+        case Window() | Tag() | Predict() | Cancel() | Compare():
             await _carry_out_for_panel(workspace, session, message)
         case Hello():
             session.notify("This tab has said hello before.", "warning")
 
 
 async def _carry_out_for_panel(
-    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel
+    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel | Compare
 ) -> None:
-    """Carries out what the panel's own HTML asks for by way of the editor."""
+    """Carries out what the panel's own HTML asks for by way of the editor, and what reviewers ask."""
     match message:
+        case Compare(image=image):
+            await tell_differences(workspace, session, image)
         case Window():
             follow_window(session, message)
         case Tag():
@@ -222,6 +227,7 @@ class _Unreadable(Struct):
 
     edits: list[_Named] = []
     statuses: list[_Named] = []
+    verdicts: list[_Named] = []
 
 
 def _refuse(session: Session, text: str, *, reason: str) -> None:
@@ -231,7 +237,7 @@ def _refuse(session: Session, text: str, *, reason: str) -> None:
         message = msgspec.json.decode(text, type=_Unreadable)
     except UNREADABLE:
         message = _Unreadable()
-    edits = message.edits + message.statuses
+    edits = message.edits + message.statuses + message.verdicts
     if edits:
         session.send(Outcomes(outcomes=[Refused(edit=edit.id, reason=sentence) for edit in edits]))
     else:

@@ -34,9 +34,10 @@ SAY_WORKING_S = 3.0
 
 async def apply_edits(workspace: Workspace, session: Session, message: Edits) -> None:
     """Stores a change set or a piece of one; the acknowledgement goes out once the transaction is on disk."""
-    if len(message.edits) + len(message.statuses) > MOST_EDITS:
+    sent = [*message.edits, *message.statuses, *message.verdicts]
+    if len(sent) > MOST_EDITS:
         reason = f"A change set holds at most {MOST_EDITS} edits; make this in several steps."
-        refused = [Refused(edit=edit.id, reason=reason) for edit in [*message.edits, *message.statuses]]
+        refused = [Refused(edit=edit.id, reason=reason) for edit in sent]
         session.send(Outcomes(outcomes=[*refused]))
         return
     session.storing = {edit.annotation for edit in message.edits}
@@ -67,6 +68,8 @@ async def apply_edits(workspace: Workspace, session: Session, message: Edits) ->
             tab.follow("cap", "history")
     session.refresh("cap", "status")
     session.follow("history")
+    if message.statuses or message.verdicts:
+        workspace.follow("desk", "cap", "history")
 
 
 async def _say_working(session: Session) -> None:
@@ -88,7 +91,8 @@ async def _store(
         answered = await workspace.read(partial(known_outcomes, edits=message.edits))
     new = [edit for edit in message.edits if edit.id not in answered]
     derived = await _derive(workspace, session, new)
-    store = partial(commit, workspace.project, derived, statuses=message.statuses, user=session.user)
+    said = {"statuses": message.statuses, "verdicts": message.verdicts}
+    store = partial(commit, workspace.project, derived, **said, user=session.user)
     fresh = iter(await anyio.to_thread.run_sync(store))
     return [answered.get(edit.id) or next(fresh) for edit in message.edits] + list(fresh), derived
 

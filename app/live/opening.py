@@ -18,7 +18,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, ListPosition
 from fairyring.storage.records import Image, ImageContents
 
-CHANGES_IMAGE = ("status", "images", "cap", "history", "review")
+CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "review")
 """The parts of the panel that depend on the image on screen."""
 
 

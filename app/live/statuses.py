@@ -15,7 +15,7 @@ def announce_statuses(workspace: Workspace, images: Iterable[Image], *, user: st
     """Tells every tab that shows one of these images its status, and has every list follow."""
     changed = [tell_status(tab, image, user=user) for image in images for tab in workspace.tabs]
     if any(changed):
-        workspace.follow("status", "images", "history")
+        workspace.follow("status", "images", "history", "desk")
 
 
 def tell_status(tab: Session, image: Image, *, user: str) -> bool:

@@ -11,8 +11,9 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.panels.verdicts import WORDS
 from fairyring.storage.image_history import ChangeSet, ChangeSetPage, list_change_sets
-from fairyring.storage.records import Cap
+from fairyring.storage.records import Cap, GivenVerdict
 
 PAGE = 10
 
@@ -71,16 +72,23 @@ def _row(done: ChangeSet, image_id: int) -> Markup:
             "div",
             element("span", when, class_="fr-quiet"),
             element("span", back, class_="fr-badge") if back else None,
-            element(
-                "button",
-                "Bring back" if done.deleted and not done.made + done.changed else "Take back",
-                type="button",
-                title="Return these caps to how they were before; those that were changed since stay",
-                data_fairyring_recall=done.number,
-                data_fairyring_image=image_id,
-            ),
+            _take_back(done, image_id),
             class_="fr-line",
         ),
+    )
+
+
+def _take_back(done: ChangeSet, image_id: int) -> Markup | None:
+    """What was said is not unsaid; what it did to the status can be taken back."""
+    if done.verdict is not None and done.status is None:
+        return None
+    return element(
+        "button",
+        "Bring back" if done.deleted and not done.made + done.changed else "Take back",
+        type="button",
+        title="Return these caps to how they were before; those that were changed since stay",
+        data_fairyring_recall=done.number,
+        data_fairyring_image=image_id,
     )
 
 
@@ -101,8 +109,15 @@ def words_of(done: ChangeSet) -> str:
         parts.append(
             f"set the status from “{STATUS_WORDS[done.status[0]]}” to “{STATUS_WORDS[done.status[1]]}”"
         )
+    if done.verdict is not None and (done.verdict.words or done.status is None):
+        parts.append(_said(done.verdict))
     told = ", ".join(parts) or "changed nothing"
     return {"done": "", "undone": "took back: ", "redone": "did again: "}[done.kind] + told
+
+
+def _said(verdict: GivenVerdict) -> str:
+    about = "" if verdict.annotation is None else " of a cap"
+    return f"said{about}: {verdict.words}" if verdict.words else f"{WORDS[verdict.says]} a cap"
 
 
 def _count(number: int, what: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import (
+    desk,
     history,
     images,
     inspector,
@@ -34,6 +35,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("History"):
             parts["history"] = history.build(workspace, session)
         with pages.add_tab("Review"):
+            parts["desk"] = desk.build(workspace, session)
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)
@@ -42,4 +44,4 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         redrawing = Redrawing(parts)
         session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
         session.has_panel = True
-    session.refresh("status", "cap", "images", "history", "review", "predict", "learning", "jobs")
+    session.refresh("status", "cap", "images", "history", "desk", "review", "predict", "learning", "jobs")

@@ -133,6 +133,22 @@ export default {
         { "name": "switch_focus", "keys": ["F6"], "words": "From the photo to the panel and back" },
         { "name": "help", "keys": ["F1", "?"], "words": "This list", "label": "Keys" }
       ]
+    },
+    {
+      "title": "Review",
+      "commands": [
+        { "name": "review", "keys": ["Shift+D"], "words": "Show what was drawn and what was predicted, or not", "label": "Both outlines" },
+        { "name": "next_difference", "keys": ["."], "words": "Next cap that differs, the worst first", "label": "Next" },
+        { "name": "previous_difference", "keys": [","], "words": "Previous cap that differs", "label": "Previous" },
+        { "name": "take_models", "keys": ["S"], "words": "Take the model’s: its outline, its cap, or no cap", "label": "Model’s" },
+        { "name": "take_annotators", "keys": ["U"], "words": "Take the annotator’s: approve the cap", "label": "Annotator’s" },
+        { "name": "approve", "keys": ["Shift+Enter"], "words": "Approve the image and go to the next", "label": "Approve" },
+        { "name": "send_back", "keys": ["Shift+R"], "words": "Send it back with a comment", "label": "Send back" },
+        { "name": "reject", "keys": ["Shift+X"], "words": "Reject it with a reason", "label": "Reject" },
+        { "name": "comment", "keys": ["Shift+C"], "words": "Comment on the selected cap or the image", "label": "Comment" },
+        { "name": "magnify", "keys": ["Y"], "words": "Errors of centres ten times as long, or as they are", "label": "Errors × 10" },
+        { "name": "blink", "keys": ["Shift+L"], "words": "Drawn and predicted outlines in turn, or both", "label": "Blink" }
+      ]
     }
   ],
   "layers": [

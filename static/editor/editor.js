@@ -14,6 +14,7 @@ import { travelIn } from "./input/travel.js";
 import { Opening } from "./opening.js";
 import { performer } from "./performing.js";
 import { expose } from "./probe.js";
+import { Reviewing } from "./reviewing.js";
 import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
 import { EditorState } from "./state/editor_state.js";
@@ -70,6 +71,7 @@ export class Editor {
   #refusals;
   #toolbox;
   #found;
+  #reviewing;
   #perform;
   #pressed = () => {};
   #window = aboutWindow(() => this.#transport.send(this.#window()));
@@ -98,6 +100,7 @@ export class Editor {
         say: (text, level) => this.#say(text, level),
       }),
     });
+    this.#reviewing = new Reviewing(state, send);
     this.#found = new CapRequests(send, () => state.image?.id ?? null);
     const threshold = new Threshold(state);
     const photos = new Photos(() => this.#frame.redrawPhoto());
@@ -106,6 +109,7 @@ export class Editor {
       this.#conflicts.sketch,
       this.#refusals.sketch,
       threshold.sketch,
+      this.#reviewing.sketch,
     ]);
     this.#say = noticesIn(host);
     this.#refusals = new Refusals({
@@ -156,6 +160,7 @@ export class Editor {
       sync: this.#sync,
       pointer,
       photos,
+      reviewing: this.#reviewing,
       send,
       say: (text) => this.#say(text),
       toggle: (layer) => this.#toggle(layer),
@@ -171,6 +176,7 @@ export class Editor {
       asking: () => this.#found.busy,
       connection: () => this.#transport.state,
       tool: () => tool().name,
+      review: this.#reviewing.review,
     });
   }
 
@@ -301,9 +307,13 @@ export class Editor {
     switch (message.type) {
       case "show":
         this.#opening.show(message);
+        this.#reviewing.ask();
         return this.#progress();
       case "outcomes":
-        return this.#sync.receive(message.outcomes);
+        this.#sync.receive(message.outcomes);
+        return this.#reviewing.ask();
+      case "compared":
+        return this.#reviewing.take(message);
       case "status":
         return this.#sync.statusChanged(message.image, message.status, message.user === this.#user);
       case "recalled":

@@ -4,6 +4,7 @@ import { switchFocus } from "./input/focus.js";
 import { keyList } from "./ui/help.js";
 import { ask } from "./ui/question.js";
 import { tourIn } from "./ui/tour.js";
+import { askWords } from "./ui/words_asked.js";
 
 /** @typedef {import("./input/actions/context.js").Context} Context */
 /** @typedef {import("./input/pointer.js").Pointer} Pointer */
@@ -18,6 +19,7 @@ import { tourIn } from "./ui/tour.js";
  * @property {Sync} sync
  * @property {Pointer} pointer
  * @property {Photos} photos
+ * @property {import("./reviewing.js").Reviewing} reviewing
  */
 
 /**
@@ -25,7 +27,7 @@ import { tourIn } from "./ui/tour.js";
  *
  * @type {(parts: Own & Pick<Context, "state" | "send" | "say" | "toggle" | "askScore">) => (name: string) => boolean}
  */
-export function performer({ host, toolbox, sync, pointer, photos, ...passed }) {
+export function performer({ host, toolbox, sync, pointer, photos, reviewing, ...passed }) {
   /** @type {Context} */
   const context = {
     ...passed,
@@ -38,7 +40,11 @@ export function performer({ host, toolbox, sync, pointer, photos, ...passed }) {
     undo: () => sync.undo(),
     redo: () => sync.redo(),
     setStatus: (status) => sync.say(status),
+    judge: (annotation, says, words) => sync.judge(annotation, says, words),
+    review: reviewing.review,
+    blink: () => reviewing.blink(),
     ask,
+    askWords,
     switchFocus: () => switchFocus(host),
     help: keyList(),
     tour: tourIn(host, passed.state),

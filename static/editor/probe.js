@@ -12,9 +12,9 @@ import { toImage, toScreen } from "./geometry/view.js";
 
 /**
  * @param {HTMLElement} host
- * @param {{state: EditorState, frame: Frame, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string}} editor
+ * @param {{state: EditorState, frame: Frame, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string, review: import("./state/review.js").Review}} editor
  */
-export function expose(host, { state: editorState, frame, waiting, asking, connection, tool }) {
+export function expose(host, { state: editorState, frame, waiting, asking, connection, tool, review }) {
   const { viewport } = editorState;
   const view = {
     /**
@@ -66,6 +66,11 @@ export function expose(host, { state: editorState, frame, waiting, asking, conne
     },
     get connection() {
       return connection();
+    },
+    /** What a reviewer looks at. */
+    get review() {
+      const { on, image, caps, times, turn } = review;
+      return { on, image, caps, times, turn };
     },
     get tool() {
       return tool();

@@ -119,6 +119,18 @@
  * @property {string} takes_back
  */
 
+/** @typedef {"approved" | "rejected" | "sent_back" | "comment" | "withdrawn"} Says */
+
+/**
+ * @typedef {Object} Verdict
+ * @property {string} id
+ * @property {number} image
+ * @property {string | null} annotation
+ * @property {Says} says
+ * @property {string} words
+ * @property {string} change_set
+ */
+
 /**
  * @typedef {Object} Accepted
  * @property {"accepted"} outcome
@@ -203,6 +215,7 @@
  * @property {"edits"} type
  * @property {Edit[]} edits
  * @property {StatusEdit[]} statuses
+ * @property {Verdict[]} verdicts
  */
 
 /**
@@ -243,6 +256,12 @@
  */
 
 /**
+ * @typedef {Object} Compare
+ * @property {"compare"} type
+ * @property {number} image
+ */
+
+/**
  * @typedef {Object} FindCap
  * @property {"find_cap"} type
  * @property {number} seq
@@ -272,7 +291,7 @@
  * @property {number} job
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap} ToServer */
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare} ToServer */
 
 /**
  * @typedef {Object} Welcome
@@ -336,6 +355,22 @@
  */
 
 /**
+ * @typedef {Object} ComparedCap
+ * @property {string | null} annotation
+ * @property {Prediction | null} prediction
+ * @property {number | null} iou
+ * @property {number | null} cdr
+ * @property {number | null} floor
+ */
+
+/**
+ * @typedef {Object} Compared
+ * @property {"compared"} type
+ * @property {number} image
+ * @property {ComparedCap[]} caps
+ */
+
+/**
  * @typedef {Object} FoundCap
  * @property {"found_cap"} type
  * @property {number} seq
@@ -390,6 +425,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Fitted | JobProgress | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Compared | Fitted | JobProgress | Command | Notice} FromServer */
 
 export {};

@@ -12,7 +12,7 @@ from typing import Any
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
 from fairyring.storage.db.columns import Flag, Json, Real
-from fairyring.storage.records import Cap, Mark, Outline, Shape
+from fairyring.storage.records import Cap, Mark, Outline, Rules, Shape
 
 metadata = MetaData(
     naming_convention={
@@ -39,6 +39,7 @@ project = Table(
     Column("id", Text, primary_key=True),
     Column("name", Text, nullable=False),
     Column("made_at", Text, nullable=False),
+    Column("rules", Json(Rules)),
     **STRICT,
 )
 
@@ -184,6 +185,23 @@ status_change = Table(
     Column("digest", Text),
     Column("change_set", Integer, ForeignKey("change_set.sequence"), index=True),
     Index(None, "id", unique=True),
+    **NEVER_REUSED,
+)
+
+verdict = Table(
+    "verdict",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("id", Text, nullable=False, unique=True),
+    Column("digest", Text, nullable=False),
+    Column("image", Integer, ForeignKey("image.id"), nullable=False, index=True),
+    Column("annotation", Text, ForeignKey("annotation.uid"), index=True),
+    Column("revision", Integer),
+    Column("says", Text, nullable=False),
+    Column("words", Text, nullable=False),
+    Column("user", Text, nullable=False),
+    Column("made_at", Text, nullable=False),
+    Column("change_set", Integer, ForeignKey("change_set.sequence"), index=True),
     **NEVER_REUSED,
 )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from importlib.metadata import version
 from typing import Any, BinaryIO
 
@@ -22,8 +22,9 @@ from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Poly
 from fairyring.model.geometry.uniting import united_with
 from fairyring.storage.formats.foreign_keys import without_geometry
 from fairyring.storage.provenance import Standing
-from fairyring.storage.records import Annotation, Image, Mark, Outline, Prediction, Shape
+from fairyring.storage.records import Annotation, GivenVerdict, Image, Mark, Outline, Prediction, Shape
 
+VERDICTS = "verdicts"
 KEYPOINTS = ["centre"]
 WRITTEN_BY = f"Fairyring {version('fairyring')}"
 NOT_SAID: dict[str, Any] = {}
@@ -36,11 +37,13 @@ def annotation_entry(
     size: tuple[int, int],
     category: int,
     origin: dict[str, Any] = NOT_SAID,
+    verdicts: Sequence[GivenVerdict] = (),
 ) -> dict[str, Any]:
     """The entry of an annotation.
 
-    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height, and ``origin``
-    says who made it. What an imported file says of that stands until the cap is edited.
+    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height, ``origin``
+    says who made it, and ``verdicts`` what reviewers said of it. What an imported file says of its origin
+    stands until the cap is edited.
     """
     cap = annotation.cap
     marked = cap.mark is not None
@@ -61,6 +64,7 @@ def annotation_entry(
     extra = annotation.extra if untouched else without_geometry(annotation.extra) | origin
     if "amodal_segmentation" in extra:
         entry["amodal_segmentation"] = extra["amodal_segmentation"]
+    entry |= verdict_keys(verdicts, extra)
     return {"id": number} | origin | extra | entry | {"uid": annotation.uid}
 
 
@@ -76,12 +80,17 @@ def prediction_entry(
 
 
 def image_entry(
-    image: Image, *, sha256: str, partial: bool, licenses: list[dict[str, Any]]
+    image: Image,
+    *,
+    sha256: str,
+    partial: bool,
+    licenses: list[dict[str, Any]],
+    verdicts: Sequence[GivenVerdict] = (),
 ) -> dict[str, Any]:
     """The entry of an image; its licence is added to ``licenses`` and named by number.
 
     ``sha256`` is that of its file in the export. ``partial``: nobody has said that the annotations are all
-    its caps.
+    its caps. ``verdicts``: what reviewers said of it.
     """
     entry: dict[str, Any] = {"id": image.id, "file_name": image.file_name}
     entry |= {"width": image.width, "height": image.height, "status": image.status}
@@ -92,7 +101,18 @@ def image_entry(
     license_ = extra.pop("license", None)
     if isinstance(license_, dict):
         extra["license"] = _number_of_license(license_, licenses)
+    entry |= verdict_keys(verdicts, extra)
     return extra | entry | {key: value for key, value in known.items() if value is not None}
+
+
+def verdict_keys(verdicts: Sequence[GivenVerdict], extra: dict[str, Any]) -> dict[str, Any]:
+    """``verdicts``: what reviewers said of an image or a cap, after what an imported file has them say."""
+    imported = extra.get(VERDICTS)
+    said = [*imported] if isinstance(imported, list) else []
+    for each in verdicts:
+        of_cap = {} if each.revision is None else {"revision": each.revision}
+        said.append({"says": each.says, "words": each.words} | of_cap | {"by": each.user, "at": each.made_at})
+    return {VERDICTS: said} if said else {}
 
 
 def info_entry(

@@ -13,6 +13,7 @@ const DRAWING = `
   main
   editor
   opening  performing  probe
+  reviewing
   ui  input
   sync  render
   state

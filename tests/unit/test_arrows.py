@@ -30,9 +30,10 @@ DRAWINGS = {
         importing  exporting  backup  about
         taken_out  relinking
         journal  formats  migrations  image_history
+        judging
         statuses  exported_photos
-        project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
-        change_sets
+        project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
+        change_sets  verdicts  rules
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

@@ -12,6 +12,16 @@ import { copySelected, mergeSelected, pasteBefore, pasteCopied } from "./actions
 import { finishAs, finishImage, step } from "./actions/image.js";
 import { converted, flag, markSelected, reorder } from "./actions/marking.js";
 import { tightenSelected } from "./actions/tightening.js";
+import {
+  approveAndGoOn,
+  comment,
+  reject,
+  sendBack,
+  takeAnnotators,
+  takeModels,
+  toggleReview,
+  walkDifferences,
+} from "./actions/reviewing.js";
 import { acceptFrom, check, ignoreBuds } from "./actions/walking.js";
 import { commandOfLayer } from "./keys.js";
 
@@ -56,6 +66,17 @@ export const ACTIONS = {
   to_do: ({ state, setStatus }) => (state.commitDrafts(), setStatus("new")),
   annotated: (context) => void finishAs(context, "annotated"),
   approved: (context) => void finishAs(context, "approved"),
+  review: toggleReview,
+  next_difference: (context) => void walkDifferences(context, 1),
+  previous_difference: (context) => void walkDifferences(context, -1),
+  take_models: takeModels,
+  take_annotators: takeAnnotators,
+  approve: (context) => void approveAndGoOn(context),
+  send_back: (context) => void sendBack(context),
+  reject: (context) => void reject(context),
+  comment: (context) => void comment(context),
+  magnify: ({ review }) => review.magnify(),
+  blink: ({ blink }) => blink(),
   loupe: ({ state }) => state.look.set({ loupe: !state.look.now.loupe }),
   plain_photo: ({ state }) => state.look.reset(),
   switch_focus: ({ switchFocus }) => switchFocus(),

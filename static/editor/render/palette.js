@@ -18,6 +18,7 @@ export const COLOURS = {
   ignored: "#9aa3ad",
   theirs: "#ff8a3d",
   refused: "#ff5c6c",
+  predicted: "#ff7bff",
   draft: "#ffffff",
   uncertainty: "#ff8a3d",
 };

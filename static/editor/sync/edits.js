@@ -7,7 +7,7 @@
 import { same } from "../geometry/same.js";
 import { newId } from "../ids.js";
 import { stepsOf } from "../state/changes.js";
-import { isOfCap } from "./outbox.js";
+import { isOfStatus, isVerdict } from "./outbox.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../protocol.js").Cap} Cap */
@@ -39,6 +39,9 @@ export function editOfStatus({ before, after }, { image, changeSet, takesBack })
   return { id: newId(), image, before, after, change_set: changeSet, takes_back: takesBack };
 }
 
+/** What follows from a verdict on an image. @type {Partial<Record<import("../protocol.js").Says, Status>>} */
+const STATUS_AFTER = { approved: "approved", rejected: "new", sent_back: "new" };
+
 /**
  * The status of an image once these edits are stored: what was approved is so no longer when a cap changes.
  *
@@ -48,7 +51,8 @@ export function editOfStatus({ before, after }, { image, changeSet, takesBack })
  */
 export function statusAfter(status, edits) {
   return edits.reduce((now, edit) => {
-    if (!isOfCap(edit)) return edit.after;
+    if (isVerdict(edit)) return (edit.annotation === null && STATUS_AFTER[edit.says]) || now;
+    if (isOfStatus(edit)) return edit.after;
     return now === "approved" ? "annotated" : now;
   }, status);
 }

@@ -10,7 +10,8 @@ import { keyOf, storedUnder } from "./stored_edits.js";
 
 /** @typedef {import("../protocol.js").Edit} CapEdit */
 /** @typedef {import("../protocol.js").StatusEdit} StatusEdit */
-/** @typedef {CapEdit | StatusEdit} Edit */
+/** @typedef {import("../protocol.js").Verdict} Verdict */
+/** @typedef {CapEdit | StatusEdit | Verdict} Edit */
 /** @typedef {{key: string, set: number, held: boolean, edit: Edit, text: string}} Entry  `held` back until a person has decided */
 
 /** How much is sent at once: the server answers a piece in about a second. */
@@ -18,7 +19,17 @@ const PIECE = { edits: 100, characters: 500_000 };
 
 /** @type {(edit: Edit) => edit is CapEdit} */
 export function isOfCap(edit) {
-  return "annotation" in edit;
+  return "cap" in edit;
+}
+
+/** @type {(edit: Edit) => edit is Verdict} */
+export function isVerdict(edit) {
+  return "says" in edit;
+}
+
+/** @type {(edit: Edit) => edit is StatusEdit} */
+export function isOfStatus(edit) {
+  return "after" in edit;
 }
 
 export class Outbox {

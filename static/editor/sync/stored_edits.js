@@ -43,5 +43,5 @@ function editsIn(text) {
 
 /** @type {(value: unknown) => value is Edit} */
 function isEdit(value) {
-  return typeof value === "object" && value !== null && "id" in value && ("annotation" in value || "after" in value);
+  return typeof value === "object" && value !== null && "id" in value && ["cap", "after", "says"].some((key) => key in value);
 }

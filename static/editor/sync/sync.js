@@ -7,8 +7,9 @@
 
 import { newId } from "../ids.js";
 import { backwards } from "../state/history.js";
+import { statusAfter } from "./edits.js";
 import { Local } from "./local.js";
-import { isOfCap } from "./outbox.js";
+import { isOfCap, isOfStatus, isVerdict } from "./outbox.js";
 import { Recalling, changeSetOf } from "./recalling.js";
 import { decide, refuse, settle, takeNews } from "./settle.js";
 
@@ -144,6 +145,27 @@ export class Sync {
     this.#carryOut(this.image, id, { takesBack: "", changes: [], status });
   }
 
+  /**
+   * Says something of the image on screen or of a cap of it; a status that follows can be undone.
+   *
+   * @param {string | null} annotation
+   * @param {import("../protocol.js").Says} says
+   * @param {string} words
+   */
+  judge(annotation, says, words) {
+    const [changeSet, before] = [newId(), this.status];
+    /** @type {import("../protocol.js").Verdict} */
+    const verdict = { id: newId(), image: this.image, annotation, says, words, change_set: changeSet };
+    const after = statusAfter(before, [verdict]);
+    if (before !== after) {
+      this.#finished = { image: this.image, next: null };
+      this.#recalling.drop();
+      this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status: { before, after } });
+    }
+    this.#local.outbox.add([verdict]);
+    this.pump();
+  }
+
   /** Takes back what was done last here; what this page does not remember the journal does. */
   undo() {
     const image = this.#finished?.image ?? this.image;
@@ -235,8 +257,8 @@ export class Sync {
     if (this.#flying.size) return true;
     const edits = outbox.head();
     if (edits.length === 0) return this.#askJournal();
-    const [caps, statuses] = [edits.filter(isOfCap), edits.flatMap((edit) => (isOfCap(edit) ? [] : edit))];
-    if (!send({ type: "edits", edits: caps, statuses })) return false;
+    const [statuses, verdicts] = [edits.filter(isOfStatus), edits.filter(isVerdict)];
+    if (!send({ type: "edits", edits: edits.filter(isOfCap), statuses, verdicts })) return false;
     this.#flying = new Map(edits.map((edit) => [edit.id, edit]));
     this.heard();
     return true;

@@ -115,7 +115,7 @@ def test_work_goes_on_and_the_journal_is_append_only_again(upgraded: Project) ->
             names = connection.execute(
                 text("SELECT name FROM sqlite_master WHERE type = 'trigger'")
             ).scalars()
-            assert len(list(names)) == 6
+            assert len(list(names)) == 8
 
 
 def test_a_backup_of_the_older_database_is_kept(tmp_path: Path) -> None:

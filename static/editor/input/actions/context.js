@@ -3,6 +3,8 @@
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("../tools/tool.js").Tool} Tool */
 /** @typedef {import("../../state/finishing.js").Question} Question */
+/** @typedef {import("../../state/review.js").Said} Said */
+/** @typedef {import("../../state/review.js").WordsQuestion} WordsQuestion */
 
 /**
  * @typedef {Object} Context  what commands work with
@@ -16,7 +18,11 @@
  * @property {() => void} undo
  * @property {() => void} redo
  * @property {(status: Status) => void} setStatus  of the image on screen
+ * @property {(annotation: string | null, says: import("../../protocol.js").Says, words: string) => void} judge  says something of the image on screen, or of a cap of it
+ * @property {import("../../state/review.js").Review} review
+ * @property {() => void} blink  draws annotations and predictions in turn, or both again
  * @property {(question: Question) => Promise<boolean>} ask
+ * @property {(question: WordsQuestion) => Promise<Said | null>} askWords
  * @property {() => Promise<number | null>} askScore  from which score on predictions are meant; null for none
  * @property {(message: ToServer) => boolean} send
  * @property {(layer: string) => void} toggle  shows or hides a layer

@@ -1,0 +1,32 @@
+"""Tells a tab where annotations and predictions of its image differ."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import anyio.to_thread
+from sqlalchemy import Connection
+
+from fairyring.app.caps.differences import differences_of
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.protocol import Compared
+from fairyring.storage.contents import load_annotations, load_predictions
+from fairyring.storage.images import get_image
+from fairyring.storage.records import Annotation, Image, Prediction
+
+
+async def tell_differences(workspace: Workspace, session: Session, image_id: int) -> None:
+    """Compares an image as it is stored now. Raises StoreError where the project has no such image."""
+    caps = await workspace.read(partial(_load, image_id=image_id))
+    worker = workspace.crew.of_image(image_id)
+    found = await anyio.to_thread.run_sync(partial(worker.run, differences_of, *caps))
+    session.send(Compared(image=image_id, caps=found))
+
+
+def _load(connection: Connection, *, image_id: int) -> tuple[Image, list[Annotation], list[Prediction]]:
+    return (
+        get_image(connection, image_id),
+        load_annotations(connection, image_id),
+        load_predictions(connection, image_id),
+    )

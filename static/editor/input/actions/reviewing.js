@@ -1,0 +1,91 @@
+/**
+ * What a reviewer does: walk through what differs, decide on caps, say something of the image.
+ *
+ * @module
+ */
+
+import { changed } from "../../state/changes.js";
+import { lookAt, nextOf, takePrediction } from "../../state/review.js";
+import { finishAs } from "./image.js";
+
+/** @typedef {import("../../protocol.js").Says} Says */
+/** @typedef {import("./context.js").Context} Context */
+
+const ALL_DECIDED = "Nothing else differs here.";
+const NONE_SELECTED = "Select a cap that differs first, with “.”.";
+
+/** @type {(context: Context) => void} */
+export function toggleReview({ review }) {
+  review.on = !review.on;
+}
+
+/** @type {(context: Context, by: 1 | -1) => Promise<void>} */
+export async function walkDifferences({ state, review, say }, by) {
+  state.commitDrafts();
+  const { image } = state;
+  if (!image) return;
+  review.on = true;
+  await review.known(image.id);
+  if (state.image?.id !== image.id) return;
+  const next = nextOf(state, review, by);
+  if (next) lookAt(state, next);
+  else say(ALL_DECIDED);
+}
+
+/** Has the selected cap be as the network said. @type {(context: Context) => void} */
+export function takeModels(context) {
+  decide(context, (shape, cap) => takePrediction(context.state, shape, cap));
+}
+
+/** The person was right: the cap is approved, a prediction without a cap turned down. @type {(context: Context) => void} */
+export function takeAnnotators(context) {
+  decide(context, (shape, { annotation }) => {
+    if (annotation) context.judge(annotation, "approved", "");
+    else context.state.commit([changed(shape, { ...shape, deleted: true })]);
+  });
+}
+
+/** @type {(context: Context, carryOut: (shape: import("../../geometry/shapes.js").Shape, cap: import("../../protocol.js").ComparedCap) => void) => void} */
+function decide({ state, review, say }, carryOut) {
+  state.commitDrafts();
+  const [cap, [shape]] = [review.selected(state), state.selected];
+  if (!cap || !shape) return say(NONE_SELECTED);
+  const next = nextOf(state, review, 1);
+  review.decided.add(shape.uid);
+  carryOut(shape, cap);
+  if (next) lookAt(state, next);
+  else say(ALL_DECIDED);
+}
+
+/** @type {(context: Context) => Promise<void>} */
+export async function approveAndGoOn(context) {
+  if (await finishAs(context, "approved")) context.send({ type: "step", by: 1 });
+}
+
+/** @type {(context: Context) => Promise<void>} */
+export async function sendBack(context) {
+  await say(context, "sent_back", "What is to be done about it?");
+}
+
+/** @type {(context: Context) => Promise<void>} */
+export async function reject(context) {
+  await say(context, "rejected", "Why is it rejected?");
+}
+
+/** @type {(context: Context) => Promise<void>} */
+export async function comment(context) {
+  await say(context, "comment", "Comment");
+}
+
+/** Of the selected cap or the image; what is said of the image leads on to the next. @type {(context: Context, says: Says, question: string) => Promise<void>} */
+async function say({ state, askWords, judge, send }, says, question) {
+  state.commitDrafts();
+  const { image } = state;
+  const uid = state.selection.soleUid;
+  const cap = uid !== null && state.store.get(uid) ? uid : null;
+  if (!image) return;
+  const said = await askWords({ question, cap: cap !== null, first: says === "comment" ? "cap" : "image" });
+  if (!said || state.image?.id !== image.id) return;
+  judge(said.about === "cap" ? cap : null, says, said.words);
+  if (said.about === "image" && says !== "comment") send({ type: "step", by: 1 });
+}

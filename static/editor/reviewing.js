@@ -1,0 +1,72 @@
+/**
+ * Keeps what a reviewer sees up to date: asks the server where annotations and predictions differ, draws it, and
+ * has the two take turns.
+ *
+ * @module
+ */
+
+import { drawReview } from "./render/review_lines.js";
+import { Review } from "./state/review.js";
+
+/** @typedef {import("./protocol.js").Compared} Compared */
+/** @typedef {import("./protocol.js").ToServer} ToServer */
+/** @typedef {import("./state/editor_state.js").EditorState} EditorState */
+
+const TURN_MS = 500;
+
+export class Reviewing {
+  review = new Review();
+  #timer = 0;
+  #state;
+  #send;
+
+  /**
+   * @param {EditorState} state
+   * @param {(message: ToServer) => unknown} send
+   */
+  constructor(state, send) {
+    this.#state = state;
+    this.#send = send;
+    let was = false;
+    this.review.changed.listen(() => {
+      if (this.review.on && !was) this.ask();
+      was = this.review.on;
+      if (!was) this.#stay();
+      state.signals.overlay.emit();
+    });
+  }
+
+  /** The image, or what is stored of it, is another now. */
+  ask() {
+    const { image } = this.#state;
+    if (this.review.on && image) this.#send({ type: "compare", image: image.id });
+  }
+
+  /** @type {(message: Compared) => void} */
+  take({ image, caps }) {
+    if (image === this.#state.image?.id) this.review.take(image, caps);
+  }
+
+  /** Draws annotations and predictions in turn, or both again. */
+  blink() {
+    if (this.#timer) return this.#stay();
+    this.review.on = true;
+    this.#turn();
+    this.#timer = setInterval(() => this.#turn(), TURN_MS);
+  }
+
+  #turn() {
+    this.review.turn = this.review.turn === "annotation" ? "prediction" : "annotation";
+    this.#state.signals.overlay.emit();
+  }
+
+  #stay() {
+    clearInterval(this.#timer);
+    this.#timer = 0;
+    this.review.turn = null;
+    this.#state.signals.overlay.emit();
+  }
+
+  /** @type {import("./render/overlay.js").Sketch} */
+  sketch = (context, view) => drawReview(context, view, this.#state, this.review);
+}

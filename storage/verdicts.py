@@ -1,0 +1,100 @@
+"""What reviewers said of images and caps, who and when: a history of which nothing is ever changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from hashlib import sha256
+from typing import Any
+
+from msgspec import json
+from sqlalchemy import ColumnElement, Connection, Row, insert, select
+
+from fairyring.storage.db.clock import now
+from fairyring.storage.db.schema import verdict
+from fairyring.storage.errors import StoreError
+from fairyring.storage.records import GivenVerdict, Says, Verdict
+
+
+def enter_verdict(
+    connection: Connection, said: Verdict, *, revision: int | None, change_set: int | None, user: str
+) -> None:
+    """Adds a verdict to the history, whatever it says.
+
+    Args:
+        connection: within ``Project.write``.
+        said: the verdict.
+        revision: of the cap that it is about; None for an image.
+        change_set: the number of the change set it belongs to.
+        user: who gives it.
+    """
+    connection.execute(
+        insert(verdict).values(
+            id=said.id,
+            digest=_digest_of(said),
+            image=said.image,
+            annotation=said.annotation,
+            revision=revision,
+            says=said.says,
+            words=said.words,
+            user=user,
+            made_at=now(),
+            change_set=change_set,
+        )
+    )
+
+
+def was_given_before(connection: Connection, said: Verdict) -> bool:
+    """Whether this verdict is in the history. Raises StoreError where another one has its number."""
+    known = connection.execute(select(verdict.c.digest).where(verdict.c.id == said.id)).scalar_one_or_none()
+    if known is not None and known != _digest_of(said):
+        raise StoreError("Another verdict has this number; reload the page.")
+    return known is not None
+
+
+def verdicts_of(connection: Connection, image_id: int) -> list[GivenVerdict]:
+    """All that was said of an image and its caps, the first one first."""
+    return _found(connection, verdict.c.image == image_id)
+
+
+def all_verdicts(connection: Connection) -> list[GivenVerdict]:
+    """All that was said of all images, the first one first."""
+    return _found(connection, verdict.c.sequence > 0)
+
+
+def verdicts_by_change_set(connection: Connection, numbers: Sequence[int]) -> dict[int, GivenVerdict]:
+    """What was said in each of these change sets in which anything was."""
+    rows = connection.execute(select(verdict).where(verdict.c.change_set.in_(numbers)))
+    return {row.change_set: _given(row) for row in rows}
+
+
+def latest_verdict(connection: Connection, image_id: int) -> Says | None:
+    """What was last said of an image itself, comments aside; None where nothing was."""
+    last = (
+        select(verdict.c.says)
+        .where(verdict.c.image == image_id, verdict.c.annotation.is_(None), verdict.c.says != "comment")
+        .order_by(verdict.c.sequence.desc())
+        .limit(1)
+    )
+    return connection.execute(last).scalar_one_or_none()
+
+
+def _found(connection: Connection, which: ColumnElement[bool]) -> list[GivenVerdict]:
+    rows = connection.execute(select(verdict).where(which).order_by(verdict.c.sequence))
+    return [_given(row) for row in rows]
+
+
+def _given(row: Row[Any]) -> GivenVerdict:
+    return GivenVerdict(
+        number=row.sequence,
+        image=row.image,
+        annotation=row.annotation,
+        revision=row.revision,
+        says=row.says,
+        words=row.words,
+        user=row.user,
+        made_at=row.made_at,
+    )
+
+
+def _digest_of(said: Verdict) -> str:
+    return sha256(json.encode(said)).hexdigest()

@@ -1,0 +1,185 @@
+"""A reviewer decides from the keyboard: what is drawn, what is predicted, what is kept of it all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fairyring.app.bench.browser.tab import Tab
+from fairyring.app.bench.serving import Server
+from fairyring.storage.contents import load_annotations, load_predictions
+from fairyring.storage.images import get_image
+from fairyring.storage.project import open_project
+from fairyring.storage.records import Annotation, GivenVerdict
+from fairyring.storage.verdicts import verdicts_of
+from tests.support.annotated_beds import CDR, make_annotated_beds, uid_of
+
+OpenTab = Callable[..., Tab]
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    return make_annotated_beds(tmp_path, count=3)
+
+
+def said_of(project: Path, image: int) -> list[GivenVerdict]:
+    with open_project(project) as opened, opened.read() as connection:
+        return verdicts_of(connection, image)
+
+
+def status_of(project: Path, image: int) -> str:
+    with open_project(project) as opened, opened.read() as connection:
+        return get_image(connection, image).status
+
+
+def caps_of(project: Path, image: int) -> dict[str, Annotation]:
+    with open_project(project) as opened, opened.read() as connection:
+        return {each.uid: each for each in load_annotations(connection, image)}
+
+
+def on_image(tab: Tab, number: int) -> None:
+    tab.wait_for(f"window.fairyring.state.image.id === {number}")
+
+
+def selected(tab: Tab, uid: str) -> None:
+    tab.wait_for(f"window.fairyring.state.selection[0] === {uid!r}")
+
+
+def say_yes(tab: Tab) -> None:
+    """To the question about the prediction that nobody has decided upon."""
+    tab.page.get_by_role("alertdialog").wait_for()
+    tab.press("Tab", "Enter")
+
+
+def test_differences_are_walked_through_decided_and_the_image_approved_by_keys_alone(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    with open_project(project) as opened, opened.read() as connection:
+        said = load_predictions(connection, 1)
+    tab = open_tab(server, name="Rev")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
+    tab.press("u")  # nobody predicted it, and it is right
+    selected(tab, f"prediction:{said[4].id}")
+    tab.press("s")  # predicted, and left open
+    selected(tab, uid_of(1, 1))
+    compared = next(each for each in tab.state("review.caps") if each["annotation"] == uid_of(1, 1))
+    assert compared["cdr"] == pytest.approx(CDR, abs=0.01)
+    assert compared["prediction"]["id"] == said[1].id
+    tab.press("s")  # the mark is 8 px off
+    tab.saved()
+    tab.press("Shift+Enter")
+    on_image(tab, 2)
+    tab.saved()
+    caps = caps_of(project, 1)
+    assert len(caps) == 6
+    assert (caps[uid_of(1, 1)].cap.mark, caps[uid_of(1, 1)].cap.visible) == (None, said[1].visible)
+    assert said[4].id in {each.cap.prediction for each in caps.values()}
+    assert [(v.user, v.says, v.annotation) for v in said_of(project, 1)] == [
+        ("Rev", "approved", uid_of(1, 4)),
+        ("Rev", "approved", None),
+    ]
+    assert status_of(project, 1) == "approved"
+
+
+def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.press("Shift+R")
+    tab.page.get_by_role("textbox", name="What is to be done about it?").wait_for()
+    tab.page.keyboard.type("The fifth cap is missing")
+    tab.press("Enter")
+    on_image(tab, 2)
+    tab.press("Shift+X")
+    tab.page.get_by_role("textbox", name="Why is it rejected?").wait_for()
+    tab.page.keyboard.type("Out of focus")
+    tab.press("Enter")
+    on_image(tab, 3)
+    tab.saved()
+    assert [(v.says, v.words) for v in said_of(project, 1)] == [("sent_back", "The fifth cap is missing")]
+    assert [(v.says, v.words) for v in said_of(project, 2)] == [("rejected", "Out of focus")]
+    assert (status_of(project, 1), status_of(project, 2)) == ("new", "new")
+    tab.press("p")
+    on_image(tab, 2)
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Rev rejected: Out of focus").wait_for()
+
+
+def test_a_comment_on_a_cap_leads_back_to_the_cap(project: Path, server: Server, open_tab: OpenTab) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
+    tab.press("Shift+C")
+    tab.page.get_by_role("textbox", name="Comment").wait_for()
+    tab.page.keyboard.type("<b>Is it one?</b>")
+    tab.press("Enter")
+    tab.saved()
+    (verdict,) = said_of(project, 1)
+    assert (verdict.says, verdict.annotation, verdict.revision) == ("comment", uid_of(1, 4), 1)
+    tab.press("Escape")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("<b>Is it one?</b>").wait_for()
+    tab.page.get_by_role("button", name="Show the cap").click()
+    selected(tab, uid_of(1, 4))
+
+
+def test_ada_cannot_approve_her_own_work_until_the_project_allows_it(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Ada")
+    tab.press("Shift+Enter")
+    say_yes(tab)
+    tab.page.get_by_text("You have labelled this image").wait_for()
+    assert status_of(project, 1) == "annotated"
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_label("Approve own work").check(force=True)
+    tab.page.wait_for_timeout(500)
+    tab.press("p")
+    on_image(tab, 1)
+    tab.press("Shift+Enter")
+    say_yes(tab)
+    on_image(tab, 2)
+    tab.saved()
+    assert status_of(project, 1) == "approved"
+
+
+def test_a_verdict_given_while_the_server_is_away_is_kept_and_sent_when_it_is_back(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    server.kill()
+    tab.wait_for("window.fairyring.state.connection === 'offline'")
+    tab.press("Shift+C")
+    tab.page.get_by_role("textbox", name="Comment").wait_for()
+    tab.page.keyboard.type("Said in the dark")
+    tab.press("Enter")
+    tab.wait_for("window.fairyring.state.waiting === 1")
+    server.start()
+    tab.page.bring_to_front()
+    tab.saved()
+    assert [v.words for v in said_of(project, 1)] == ["Said in the dark"]
+
+
+@pytest.fixture
+def watched(server: Server, open_tab: OpenTab) -> Tab:
+    tab = open_tab(server, name="Rev")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
+    return tab
+
+
+def test_outlines_take_turns_and_errors_are_enlarged_on_request(watched: Tab) -> None:
+    watched.press("y")
+    assert watched.state("review.times") == 10
+    watched.press("y")
+    assert watched.state("review.times") == 1
+    watched.press("Shift+L")
+    watched.wait_for("window.fairyring.state.review.turn === 'prediction'")
+    watched.wait_for("window.fairyring.state.review.turn === 'annotation'")
+    watched.press("Shift+L")
+    assert watched.state("review.turn") is None
+    watched.press("Shift+D")
+    assert watched.state("review.on") is False

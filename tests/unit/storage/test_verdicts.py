@@ -1,0 +1,174 @@
+"""What reviewers say of images and caps is kept as a history, and nobody approves their own work."""
+
+import sqlite3
+
+import pytest
+
+from fairyring.storage.image_history import list_change_sets
+from fairyring.storage.images import get_image
+from fairyring.storage.journal import commit
+from fairyring.storage.records import Cap, Refused, Rules, StatusEdit, StatusStored, Verdict
+from fairyring.storage.rules import rules_of, set_rules
+from fairyring.storage.taken_out import put_back, take_out
+from fairyring.storage.verdicts import latest_verdict, verdicts_of
+from tests.support.edits import one
+from tests.unit.storage.conftest import TRIANGLE
+
+
+def judge(project, number="v1", *, says="approved", words="", annotation=None, image=1, user="rev", **more):
+    said = Verdict(id=number, image=image, annotation=annotation, says=says, words=words, **more)
+    (outcome,) = commit(project, [], verdicts=[said], user=user)
+    assert isinstance(outcome, Refused | StatusStored)
+    return outcome
+
+
+def set_to(project, number, before, after, *, user, **more):
+    made = StatusEdit(id=number, image=1, before=before, after=after, **more)
+    (outcome,) = commit(project, [], statuses=[made], user=user)
+    assert isinstance(outcome, Refused | StatusStored)
+    return outcome
+
+
+def reason(outcome):
+    assert isinstance(outcome, Refused)
+    return outcome.reason
+
+
+def status(outcome):
+    assert isinstance(outcome, StatusStored)
+    return outcome.status
+
+
+def given(project):
+    with project.read() as connection:
+        return [(v.user, v.says, v.words, v.annotation, v.revision) for v in verdicts_of(connection, 1)]
+
+
+def status_of(project):
+    with project.read() as connection:
+        return get_image(connection, 1).status
+
+
+@pytest.fixture
+def annotated(beds, square):
+    """One image with a cap that ann drew, and of which she said that it is annotated."""
+    one(beds, "e1", change_set="drawn", cap=Cap(visible=square))
+    set_to(beds, "s1", "new", "annotated", user="ann")
+    return beds
+
+
+def test_a_verdict_on_an_image_is_kept_with_who_and_why_and_sets_its_status(annotated):
+    assert judge(annotated, says="sent_back", words="The rim is off") == StatusStored(
+        edit="v1", image=1, status="new"
+    )
+    set_to(annotated, "s2", "new", "annotated", user="ann")
+    judge(annotated, "v2")
+    assert given(annotated) == [
+        ("rev", "sent_back", "The rim is off", None, None),
+        ("rev", "approved", "", None, None),
+    ]
+    assert status_of(annotated) == "approved"
+
+
+def test_a_verdict_on_a_cap_names_its_revision_and_leaves_the_status(annotated):
+    one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE))
+    judge(annotated, says="rejected", words="No cap", annotation="cap")
+    assert given(annotated) == [("rev", "rejected", "No cap", "cap", 2)]
+    assert status_of(annotated) == "annotated"
+
+
+def test_a_verdict_sent_twice_is_given_once(annotated):
+    assert judge(annotated) == judge(annotated)
+    assert len(given(annotated)) == 1
+    assert "Another verdict has this number" in reason(judge(annotated, says="comment", words="x"))
+
+
+@pytest.mark.parametrize("says", ["rejected", "sent_back", "comment"])
+def test_what_needs_words_is_refused_without_them_and_changes_nothing(annotated, says):
+    assert isinstance(judge(annotated, says=says, words="  "), Refused)
+    assert given(annotated) == []
+    assert status_of(annotated) == "annotated"
+
+
+def test_a_cap_that_is_gone_or_of_another_image_is_not_judged(annotated):
+    assert "no such cap" in reason(judge(annotated, annotation="cap", image=2))
+    one(annotated, "e2", base=1, cap=None)
+    assert "no such cap" in reason(judge(annotated, annotation="cap"))
+
+
+def test_nobody_approves_what_they_have_labelled(annotated):
+    assert "You have labelled this image" in reason(judge(annotated, user="ann"))
+    assert "You have labelled this image" in reason(
+        set_to(annotated, "s2", "annotated", "approved", user="ann")
+    )
+    assert "You have drawn or changed this cap" in reason(
+        judge(annotated, "v2", annotation="cap", user="ann")
+    )
+    assert status_of(annotated) == "annotated"
+
+
+def test_before_anybody_says_annotated_all_who_changed_caps_have_labelled_it(beds, square):
+    one(beds, "e1", cap=Cap(visible=square), user="ann")
+    one(beds, "e2", base=1, cap=Cap(visible=TRIANGLE), user="bob")
+    assert isinstance(judge(beds, user="ann"), Refused)
+    assert isinstance(judge(beds, user="bob"), Refused)
+    assert status(judge(beds, "v2", user="rev")) == "approved"
+
+
+def test_a_reviewer_who_corrects_a_cap_still_approves(annotated):
+    one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev")
+    assert status(judge(annotated)) == "approved"
+
+
+def test_undoing_an_approval_makes_no_annotator_of_the_reviewer(annotated):
+    set_to(annotated, "s2", "annotated", "approved", user="rev", change_set="a")
+    set_to(annotated, "s3", "approved", "annotated", user="rev", change_set="b", takes_back="a")
+    assert [says for _, says, *_ in given(annotated)] == ["approved", "withdrawn"]
+    assert status(set_to(annotated, "s4", "annotated", "approved", user="rev")) == "approved"
+
+
+def test_the_project_may_allow_to_approve_own_work(annotated):
+    annotated.write(lambda connection: set_rules(connection, Rules(approve_own=True)))
+    with annotated.read() as connection:
+        assert rules_of(connection).approve_own
+    assert status(judge(annotated, user="ann")) == "approved"
+
+
+def test_setting_the_status_to_approved_is_a_verdict_and_an_edit_afterwards_reopens(annotated):
+    set_to(annotated, "s2", "annotated", "approved", user="rev")
+    one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE))
+    assert given(annotated) == [("rev", "approved", "", None, None)]
+    assert status_of(annotated) == "annotated"
+
+
+def test_undoing_a_sending_back_withdraws_it(annotated):
+    judge(annotated, says="sent_back", words="?", change_set="back")
+    set_to(annotated, "s2", "new", "annotated", user="rev", change_set="undo", takes_back="back")
+    with annotated.read() as connection:
+        assert latest_verdict(connection, 1) == "withdrawn"
+
+
+def test_the_history_of_the_image_tells_of_verdicts(annotated):
+    judge(annotated, says="comment", words="Look here", annotation="cap")
+    with annotated.read() as connection:
+        last = list_change_sets(connection, 1).change_sets[0]
+    assert last.verdict is not None
+    assert (last.user, last.verdict.words) == ("rev", "Look here")
+
+
+@pytest.mark.parametrize("change", ["UPDATE verdict SET words = 'x'", "DELETE FROM verdict"])
+def test_the_history_of_verdicts_cannot_be_rewritten(annotated, change):
+    judge(annotated)
+    with (
+        sqlite3.connect(annotated.folder / "project.db") as connection,
+        pytest.raises(sqlite3.IntegrityError, match="append-only"),
+    ):
+        connection.execute(change)
+
+
+def test_an_image_that_is_taken_out_and_put_back_keeps_its_verdicts(annotated):
+    judge(annotated, says="comment", words="Look here")
+    before = given(annotated)
+    taken = take_out(annotated, [1], user="ann")
+    put_back(annotated, taken)
+    assert given(annotated) == before
