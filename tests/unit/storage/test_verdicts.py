@@ -7,7 +7,7 @@ import pytest
 from fairyring.storage.image_history import list_change_sets
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import commit
-from fairyring.storage.records import Cap, Refused, Rules, StatusEdit, StatusStored, Verdict
+from fairyring.storage.records import Cap, Refused, Rules, Says, StatusEdit, StatusStored, Verdict
 from fairyring.storage.rules import rules_of, set_rules
 from fairyring.storage.taken_out import put_back, take_out
 from fairyring.storage.verdicts import latest_verdict, verdicts_of
@@ -15,7 +15,9 @@ from tests.support.edits import one
 from tests.unit.storage.conftest import TRIANGLE
 
 
-def judge(project, number="v1", *, says="approved", words="", annotation=None, image=1, user="rev", **more):
+def judge(
+    project, number="v1", *, says: Says = "approved", words="", annotation=None, image=1, user="rev", **more
+):
     said = Verdict(id=number, image=image, annotation=annotation, says=says, words=words, **more)
     (outcome,) = commit(project, [], verdicts=[said], user=user)
     assert isinstance(outcome, Refused | StatusStored)
