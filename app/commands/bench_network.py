@@ -19,11 +19,12 @@ if TYPE_CHECKING:
     from fairyring.app.bench.network.sets import LabelledPhotos
     from fairyring.model.photo import Pixels
     from fairyring.model.predict.seen import Detection
+    from fairyring.model.progress import Progress
 
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
-    help="Measure a network, in seven tables.",
+    help="Measure a network, in eight tables.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
@@ -33,6 +34,11 @@ Real = Annotated[Path | None, typer.Option(help="Folder of photos with checked.j
 Pictures = Annotated[
     Path | None, typer.Option(help="Folder for pictures of the best, a typical and the worst image.")
 ]
+
+Runs = Annotated[Path, typer.Option(help="Folder for the beds and the runs; runs there are gone on with.")]
+Iterations = Annotated[int, typer.Option(min=1, help="Of every network.")]
+TrainBeds = Annotated[int, typer.Option(min=1, help="Of each preset, to train on.")]
+CropSide = Annotated[int, typer.Option(min=64, help="Side of the crops, photo pixels.")]
 
 
 @commands.command()
@@ -129,22 +135,52 @@ def peers(
     device: OnDevice = Device.auto,
     as_json: AsJson = False,
 ) -> None:
-    """The network beside methods without weights: Hough, watershed by distance, corners.
+    """The network beside methods without weights: Hough, watershed by distance, corners (Table 1).
 
     Example: `fairyring bench network peers --real photos --count 6`
     """
     from fairyring.app.bench.network.peers import peer_rows
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device, least_score=0).predictor
     rows: list[dict[str, Any]] = []
     with _folder(beds) as folder, shown_on_stderr() as progress:
-        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
-        for photos in [*sets, *([] if real is None else [checked(real)])]:
+        for photos in _sets(folder, count, real, progress):
             rows += peer_rows(predictor, photos, diameter=diameter, progress=progress)
     print_rows("peers", rows, as_json=as_json)
+
+
+@commands.command()
+def alike(
+    *,
+    out: Runs,
+    iterations: Iterations = 600,
+    train_beds: TrainBeds = 40,
+    crop: CropSide = 256,
+    count: Count = None,
+    real: Real = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """PR-SOLOv2 beside SOLOv2, Mask R-CNN and YOLACT, all trained alike (Tables 2 and 3).
+
+    Example: `fairyring bench network alike --out alike --count 6 --real photos`
+    """
+    from fairyring.app.bench.network.trained_alike import alike_rows
+    from fairyring.model.device import device_of
+
+    with shown_on_stderr() as progress:
+        rows = alike_rows(
+            folder=out,
+            sets=_sets(out, count, real, progress),
+            beds=train_beds,
+            iterations=iterations,
+            crop=crop,
+            device=device_of(device),
+            progress=progress,
+        )
+    print_rows("alike", rows, as_json=as_json)
 
 
 @commands.command()
@@ -194,10 +230,10 @@ def ways(
 @commands.command()
 def ablation(
     *,
-    out: Annotated[Path, typer.Option(help="Folder for the beds and the runs; runs there are gone on with.")],
-    iterations: Annotated[int, typer.Option(min=1, help="Of every variant.")] = 600,
-    train_beds: Annotated[int, typer.Option(min=1, help="Of each preset, to train on.")] = 60,
-    crop: Annotated[int, typer.Option(min=64, help="Side of the crops, photo pixels.")] = 320,
+    out: Runs,
+    iterations: Iterations = 600,
+    train_beds: TrainBeds = 60,
+    crop: CropSide = 320,
     count: Count = None,
     device: OnDevice = Device.auto,
     as_json: AsJson = False,
@@ -221,6 +257,14 @@ def ablation(
             progress=progress,
         )
     print_rows("ablation", rows, as_json=as_json)
+
+
+def _sets(folder: Path, count: int | None, real: Path | None, progress: Progress) -> list[LabelledPhotos]:
+    """The rendered test beds of each preset, and the checked photos of ``real``."""
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+
+    sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
+    return [*sets, *([] if real is None else [checked(real)])]
 
 
 def _predicted(

@@ -8,7 +8,8 @@ import torch
 from torch import Tensor, nn
 from torch.optim.swa_utils import AveragedModel
 
-from fairyring.model.network.pr_solov2 import PRSOLOv2
+from fairyring.model.network.lite0 import EfficientNetLite0
+from fairyring.model.network.resnet import ResNet
 from fairyring.model.train.recipe import Recipe
 
 DROPS = ((0.75, 0.1), (0.92, 0.01))
@@ -18,7 +19,7 @@ AVERAGED_FROM = 10
 """The average begins as if it had seen so many iterations: it follows the weights closely at first."""
 
 
-def optimiser_of(network: PRSOLOv2, recipe: Recipe) -> torch.optim.Optimizer:
+def optimiser_of(network: nn.Module, recipe: Recipe) -> torch.optim.Optimizer:
     """The recipe's optimiser. Norms and biases are not decayed; the backbone has a rate of its own."""
     groups = []
     for in_backbone in (True, False):
@@ -56,7 +57,7 @@ def set_rate(optimiser: torch.optim.Optimizer, rate: float) -> None:
         group["lr"] = rate * group["factor"]
 
 
-def average_of(network: PRSOLOv2, decay: float) -> AveragedModel:
+def average_of(network: nn.Module, decay: float) -> AveragedModel:
     """An exponential moving average of the weights, which a short training can rely on, too."""
 
     def follow(average: Tensor, value: Tensor, count: Tensor | int) -> Tensor:
@@ -65,9 +66,9 @@ def average_of(network: PRSOLOv2, decay: float) -> AveragedModel:
     return AveragedModel(network, avg_fn=follow)
 
 
-def freeze_stages(network: PRSOLOv2, count: int) -> None:
-    """Keeps the first stages of the backbone as they are."""
-    for stage in network.backbone.stages()[:count]:
+def freeze_stages(backbone: EfficientNetLite0 | ResNet, count: int) -> None:
+    """Keeps the first stages of a backbone as they are."""
+    for stage in backbone.stages()[:count]:
         for module in stage:
             module.requires_grad_(False)
 

@@ -72,7 +72,7 @@ def new_network(recipe: Recipe) -> PRSOLOv2:
 
 def first_state(network: PRSOLOv2, recipe: Recipe, *, device: torch.device) -> TrainingState:
     """The state before the first iteration; this very network is trained."""
-    freeze_stages(network, recipe.frozen)
+    freeze_stages(network.backbone, recipe.frozen)
     network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
     return TrainingState(
         network=network,

@@ -39,6 +39,7 @@ DRAWINGS = {
         records  errors  folder  choices
     """,
     "model": """
+        peers
         train
         evaluate  scene
         contour  predict

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import torch
 from msgspec.structs import replace
 
-from fairyring.app.bench.network.sets import LabelledPhotos, rendered_for_training
+from fairyring.app.bench.network.sets import LabelledPhotos, examples_of, rendered_for_training
 from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_row, predicted_document
 from fairyring.model.coco.document import document_of
 from fairyring.model.evaluate.masks import evaluate_masks
@@ -72,16 +71,14 @@ def ablation_rows(
     Every one sees the same ``beds`` of each preset, the same number of iterations and the same seed.
     """
     examples = [
-        example for photos in rendered_for_training(folder, beds, progress) for example in _examples(photos)
+        example for photos in rendered_for_training(folder, beds, progress) for example in examples_of(photos)
     ]
     rows: list[dict[str, Any]] = [
         {"network": f"paper: {name}"} | {key: figures.get(key) for key in MASK_FIGURES} | {"window": None}
         for name, figures in (("SOLOv2", PAPER_SOLOV2), ("PR-SOLOv2", PAPER_MASKS))
     ]
     for name, recipe in recipes.items():
-        out = folder / f"{recipe.iterations} {name}".replace(" ", "_").replace(",", "")
-        if not (out / FINAL).exists():
-            _train(name, recipe, examples, out, device=device, progress=progress)
+        out = trained_variant(name, recipe, examples, folder=folder, device=device, progress=progress)
         predictor = Predictor(load_weights(out / FINAL).network, device=device)
         for window in WINDOWS:
             detect = partial(_read, predictor, settings=DecodeConfig(window=window))
@@ -95,21 +92,22 @@ def _read(predictor: Predictor, photo: Pixels, *, settings: DecodeConfig) -> lis
     return predictor.read(predictor.see(photo), settings)
 
 
-def _train(
-    name: str, recipe: Recipe, examples: list[Example], out: Path, *, device: torch.device, progress: Progress
-) -> None:
+def trained_variant(
+    name: str,
+    recipe: Recipe,
+    examples: list[Example],
+    *,
+    folder: Path,
+    device: torch.device,
+    progress: Progress,
+) -> Path:
+    """Trains a variant in a folder of its own in ``folder`` unless that was done, and returns that folder."""
+
     def report(step: TrainingProgress) -> None:
         progress(step.iteration, step.iterations, f"training {name}")
 
-    resume = (out / "last.pt").exists()
-    train(examples, [], out, recipe=recipe, device=device, resume=resume, report=report)
-
-
-def _examples(photos: LabelledPhotos) -> list[Example]:
-    caps: dict[Any, list[list[list[float]]]] = defaultdict(list)
-    for cap in photos.document["annotations"]:
-        caps[cap["image_id"]].append(cap["segmentation"])
-    return [
-        Example(path=path, width=entry["width"], height=entry["height"], caps=caps[entry["id"]])
-        for entry, path in zip(photos.document["images"], photos.photos, strict=True)
-    ]
+    out = folder / f"{recipe.iterations} {name}".replace(" ", "_").replace(",", "")
+    if not (out / FINAL).exists():
+        resume = (out / "last.pt").exists()
+        train(examples, [], out, recipe=recipe, device=device, resume=resume, report=report)
+    return out

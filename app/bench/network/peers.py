@@ -1,4 +1,4 @@
-"""Tables 1 and 2: the network beside systems that find caps in other ways, on the same photos."""
+"""Table 1: the network beside methods that need no weights, on the same photos."""
 
 from __future__ import annotations
 

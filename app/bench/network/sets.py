@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ from fairyring.model.photo import Pixels
 from fairyring.model.progress import Progress
 from fairyring.model.scene.dataset import DOCUMENT, write_beds
 from fairyring.model.scene.presets import preset
+from fairyring.model.train.data import Example
 
 TEST_BEDS = {"paper": (48, 3003), "farm": (20, 3001)}
 """Number of test beds and their seed, by preset. Training and validation have other seeds."""
@@ -67,6 +69,17 @@ def rendered_for_training(folder: Path, count: int, progress: Progress) -> list[
 def checked(folder: Path) -> LabelledPhotos:
     """The hand-checked photos of a folder with ``checked.json`` and ``images/``."""
     return _read("checked photos", folder / "checked.json")
+
+
+def examples_of(photos: LabelledPhotos) -> list[Example]:
+    """The photos as examples to learn from, all their caps labelled."""
+    caps: dict[Any, list[list[list[float]]]] = defaultdict(list)
+    for cap in photos.document["annotations"]:
+        caps[cap["image_id"]].append(cap["segmentation"])
+    return [
+        Example(path=path, width=entry["width"], height=entry["height"], caps=caps[entry["id"]])
+        for entry, path in zip(photos.document["images"], photos.photos, strict=True)
+    ]
 
 
 def _read(name: str, labels: Path) -> LabelledPhotos:

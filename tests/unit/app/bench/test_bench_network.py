@@ -30,7 +30,7 @@ def table(tmp_path_factory: pytest.TempPathFactory) -> Table:
 
     def rows(name: str, *options: str | Path) -> list[dict[str, Any]]:
         arguments = ["bench", "network", name, "--device", "cpu", "--json", *map(str, options)]
-        if name != "ablation":
+        if name not in ("ablation", "alike"):
             arguments += ["--beds", str(folder / "beds"), "--weights", str(folder / "small.safetensors")]
         result = CliRunner().invoke(app, arguments, catch_exceptions=False)
         assert result.exit_code == 0, result.output
@@ -104,3 +104,20 @@ def test_every_variant_is_trained_alike_and_once(table: Table, tmp_path: Path) -
     weights = {path: path.stat().st_mtime_ns for path in tmp_path.glob("1_*/weights.safetensors")}
     assert table("ablation", *options) == rows
     assert {path: path.stat().st_mtime_ns for path in tmp_path.glob("1_*/weights.safetensors")} == weights
+
+
+def test_systems_trained_alike_stand_beside_the_papers_figures(table: Table, tmp_path: Path) -> None:
+    options = ("--out", tmp_path, "--iterations", "1", "--crop", "64", "--train-beds", "1", "--count", "1")
+    rows = table("alike", *options)
+    papers = [row for row in rows if row["set"] == "the paper's"]
+    assert {row["system"]: row["AP"] for row in papers} == {
+        **{"Mask R-CNN": 0.8351, "YOLACT": 0.8074, "SOLOv2": 0.9028, "PR-SOLOv2": 0.9304}
+    }
+    ours = [(row["set"], row["system"]) for row in rows if row not in papers]
+    assert sorted(ours) == sorted((name, row["system"]) for name in ("paper", "farm") for row in papers)
+    for row in rows:
+        if row not in papers:
+            assert row["cpu_seconds"] > 0
+            assert 100 < row["peak_MB"] < 4000
+            assert 1 < row["parameters_M"] < 30
+    assert len(list(tmp_path.glob("1_*/weights.safetensors"))) == 4

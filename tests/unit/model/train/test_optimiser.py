@@ -69,16 +69,16 @@ def test_norms_and_biases_do_not_decay_and_the_backbone_has_its_rate(name: str) 
 
 def test_what_is_frozen_is_not_stepped() -> None:
     network = tiny()
-    freeze_stages(network, 2)
+    freeze_stages(network.backbone, 2)
     names = {key for key, value in network.named_parameters() if not value.requires_grad}
     assert {name.split(".")[1] for name in names} == {"conv_stem", "bn0", "blocks"}
     assert {int(name.split(".")[2]) for name in names if ".blocks." in name} == {0, 1, 2, 3, 4}
     optimiser = optimiser_of(network, PAPER)
     stepped = {id(value) for group in optimiser.param_groups for value in group["params"]}
     assert all((id(v) in stepped) == v.requires_grad for v in network.parameters())
-    freeze_stages(network, 0)
+    freeze_stages(network.backbone, 0)
     all_but = tiny()
-    freeze_stages(all_but, 4)
+    freeze_stages(all_but.backbone, 4)
     assert not any(value.requires_grad for value in all_but.backbone.parameters())
     assert all(value.requires_grad for value in all_but.kernel_head.parameters())
     assert optimiser_of(all_but, PAPER)

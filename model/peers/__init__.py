@@ -1,0 +1,1 @@
+"""Mask R-CNN and YOLACT, which the paper's Tables 2 and 3 hold beside its own network, in plain PyTorch."""
