@@ -23,6 +23,7 @@ from fairyring.app.commands import (
     rules,
     runs,
     serve,
+    splits,
     synth,
 )
 from fairyring.app.commands.ending import Commands
@@ -45,6 +46,7 @@ app.command("export")(project.export)
 app.command("take-out")(images.take_out)
 app.command("put-back")(images.put_back)
 app.command("relink")(images.relink)
+app.command("split")(splits.split)
 app.command("info")(info.info)
 app.command("backup")(project.backup)
 app.command("restore")(project.restore)

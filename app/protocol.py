@@ -120,11 +120,12 @@ class Window(FromEditor, frozen=True, tag="window"):
 
 
 class Tag(FromEditor, frozen=True, tag="tag"):
-    """Says the light and the form of an image; None for not known."""
+    """Says the light, the form and the split of an image; None for not known, or in no split."""
 
     image: int
     light: str | None = None
     form: str | None = None
+    split: str | None = None
 
 
 class Predict(FromEditor, frozen=True, tag="predict"):

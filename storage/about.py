@@ -72,7 +72,7 @@ def figures_of(project: Project) -> Figures:
             name=project.name,
             images=_count(connection, image.c.id > 0),
             status={status: _count(connection, image.c.status == status) for status in STATUSES},
-            splits=_splits(connection),
+            splits=images_by_split(connection),
             linked=_count(connection, ~image.c.path.startswith(f"{IMAGES}/")),
             taken_out=len(taken_out(project)),
             caps=_count(connection, counted),
@@ -91,8 +91,11 @@ def _count(connection: Connection, condition: ColumnElement[bool]) -> int:
     return connection.execute(select(func.count()).where(condition)).scalar_one()
 
 
-def _splits(connection: Connection) -> dict[str, int]:
-    statement = select(image.c.split, func.count()).group_by(image.c.split).order_by(image.c.split)
+def images_by_split(connection: Connection) -> dict[str, int]:
+    """How many images are in each split; those in none under an empty name."""
+    statement = (
+        select(image.c.split, func.count()).group_by(image.c.split).order_by(image.c.split.nulls_last())
+    )
     return {split or "": count for split, count in connection.execute(statement)}
 
 

@@ -30,8 +30,7 @@ def write_photos(
 ) -> tuple[dict[int, str], list[str]]:
     """The SHA-256 of each photo as it was written, by its image; and a sentence about each other one.
 
-    ``skip_missing`` leaves out images whose photo is gone. Raises StoreError where one is gone otherwise, or
-    where there are some and none could be written.
+    ``skip_missing`` leaves out images whose photo is gone. Raises StoreError where one is gone otherwise.
     """
     if photos is ExportedPhotos.none:
         return {image.id: image.sha256 for image in images}, []
@@ -55,8 +54,6 @@ def write_photos(
             if not skip_missing:
                 raise StoreError(f"{error} Or leave out such images: --skip-missing.") from error
             left_out.append(str(error))
-    if left_out and not copied:
-        raise StoreError(f"Nothing was exported: {left_out[0]}")
     return copied, left_out
 
 

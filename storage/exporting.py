@@ -16,6 +16,7 @@ from fairyring.storage.choices import ExportedPhotos, Only
 from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
+from fairyring.storage.errors import StoreError
 from fairyring.storage.exported_photos import write_photos
 from fairyring.storage.formats.coco_results import result_entry, write_results
 from fairyring.storage.formats.coco_writing import (
@@ -29,7 +30,7 @@ from fairyring.storage.formats.coco_writing import (
 from fairyring.storage.project import Project
 from fairyring.storage.provenance import origins_of, standing_of
 from fairyring.storage.records import Annotation, GivenVerdict, Image, Prediction, Run, is_complete
-from fairyring.storage.runs import images_seen_by, latest_runs_of, predictions_by, require_run
+from fairyring.storage.runs import images_seen_by, latest_runs_of, predictions_by
 from fairyring.storage.verdicts import all_verdicts
 from fairyring.storage.whole_folders import made_whole
 
@@ -48,6 +49,14 @@ class Wanted(Struct, frozen=True, kw_only=True):
     """The run whose predictions are written; None for the latest of each image."""
     with_ignored: bool = False
     """Keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``."""
+    license: str | None = None
+    """Of the whole data set; None for that of its photos."""
+    photos: ExportedPhotos = ExportedPhotos.copied
+    skip_missing: bool = False
+    """Leaves out images whose photo is gone."""
+
+
+ANNOTATED = Wanted()
 
 
 class ExportReport(Struct, frozen=True, kw_only=True):
@@ -62,19 +71,16 @@ class ExportReport(Struct, frozen=True, kw_only=True):
     """Sentences about images whose file is not the photo that was imported."""
     runs: dict[str, int]
     """The runs whose predictions were written, by name, each with how many images they are of."""
+    splits: dict[str, int] = {}
+    """Images by the folder of their split, where each has one."""
 
 
 def export_coco(
     project: Project,
     out: Path,
+    wanted: Wanted = ANNOTATED,
     *,
-    only: Only = Only.annotated,
-    run: str | None = None,
-    with_ignored: bool = False,
-    license_: str | None = None,
     results: BinaryIO | None = None,
-    photos: ExportedPhotos = ExportedPhotos.copied,
-    skip_missing: bool = False,
     progress: Progress = silent,
 ) -> ExportReport:
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
@@ -87,60 +93,75 @@ def export_coco(
     Args:
         project: whence.
         out: a new or an empty folder.
-        only: which images.
-        run: name or number of the run whose predictions are written, in place of each image's latest.
-        with_ignored: keeps ignored caps, as ``iscrowd: 1`` and ``ignored: true``.
-        license_: of the whole data set.
+        wanted: which images, with what of them.
         results: an open file for the predictions as COCO's list of results.
-        photos: whether they are copied, linked or left.
-        skip_missing: leaves out images whose photo is gone.
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 
     Raises:
-        StoreError: ``out`` holds something or cannot be written, a photo is gone, no image is left, or there
-            is no such run.
+        StoreError: ``out`` holds something or cannot be written, a photo is gone, or no image is left.
     """
     with project.read() as connection, made_whole(out) as folder:
-        wanted = Wanted(
-            only=only, run=None if run is None else require_run(connection, run), with_ignored=with_ignored
+        images = images_of(connection, wanted)
+        written = write_set(project, connection, images, wanted, folder, results=results, progress=progress)
+        return some_left(written)
+
+
+def some_left(report: ExportReport) -> ExportReport:
+    """The report, unless all images were left out: then StoreError."""
+    if report.left_out and not report.images:
+        raise StoreError(f"Nothing was exported: {report.left_out[0]}")
+    return report
+
+
+def write_set(
+    project: Project,
+    connection: Connection,
+    images: list[Image],
+    wanted: Wanted,
+    folder: Path,
+    *,
+    results: BinaryIO | None = None,
+    progress: Progress = silent,
+) -> ExportReport:
+    """Writes these images as one data set into an empty folder. Raises StoreError."""
+    only = wanted.only
+    hashes, left_out = write_photos(
+        project,
+        images,
+        folder / "images",
+        photos=wanted.photos,
+        skip_missing=wanted.skip_missing,
+        progress=progress,
+    )
+    images = [image for image in images if image.id in hashes]
+    runs = _runs(connection, images, wanted)
+    categories = connection.execute(_CATEGORIES).all()
+    licenses: list[dict[str, Any]] = []
+    verdicts = _verdicts(connection)
+    listed = [
+        image_entry(
+            image,
+            sha256=hashes[image.id],
+            partial=_is_partial(image, only),
+            licenses=licenses,
+            verdicts=verdicts[image.id, None],
         )
-        hashes, left_out = write_photos(
-            project,
-            _images(connection, wanted),
-            folder / "images",
-            photos=photos,
-            skip_missing=skip_missing,
-            progress=progress,
-        )
-        images = [image for image in _images(connection, wanted) if image.id in hashes]
-        runs = _runs(connection, images, wanted)
-        categories = connection.execute(_CATEGORIES).all()
-        licenses: list[dict[str, Any]] = []
-        verdicts = _verdicts(connection)
-        listed = [
-            image_entry(
-                image,
-                sha256=hashes[image.id],
-                partial=_is_partial(image, only),
-                licenses=licenses,
-                verdicts=verdicts[image.id, None],
-            )
-            for image in images
-        ]
-        head = {
-            "info": info_entry(project.name, standing_of(connection), licenses, license_=license_)
-            | _exported(only, runs),
-            "licenses": licenses,
-            "categories": [category_entry(row.name, row.extra, number=row.id) for row in categories],
-            "images": listed,
-        }
-        numbers = {row.name: row.id for row in categories}
+        for image in images
+    ]
+    head = {
+        "info": info_entry(project.name, standing_of(connection), licenses, license_=wanted.license)
+        | _exported(only, runs),
+        "licenses": licenses,
+        "categories": [category_entry(row.name, row.extra, number=row.id) for row in categories],
+        "images": listed,
+    }
+    numbers = {row.name: row.id for row in categories}
+    caps = _caps(connection, images, wanted, progress=progress)
+    with (folder / "instances.json").open("wb") as file:
+        count = write_document(file, head, _entries(connection, caps, numbers, verdicts))
+    if results is not None:
         caps = _caps(connection, images, wanted, progress=progress)
-        with (folder / "instances.json").open("wb") as file:
-            count = write_document(file, head, _entries(connection, caps, numbers, verdicts))
-        if results is not None:
-            caps = _caps(connection, images, wanted, progress=progress)
-            write_results(results, _results(caps, numbers))
+        write_results(results, _results(caps, numbers))
     return ExportReport(
         images=len(images),
         annotations=count,
@@ -153,7 +174,8 @@ def export_coco(
 _CATEGORIES = select(schema.category).order_by(schema.category.c.id)
 
 
-def _images(connection: Connection, wanted: Wanted) -> list[Image]:
+def images_of(connection: Connection, wanted: Wanted) -> list[Image]:
+    """The images that are wanted, by name."""
     if wanted.run is not None:
         return images_seen_by(connection, wanted.run.id)
     image = schema.image

@@ -31,6 +31,7 @@ class ImageFilter(Struct, frozen=True, kw_only=True):
     light: str | None = None
     form: str | None = None
     split: str | None = None
+    """An empty one finds images that are in none."""
     predicted: bool | None = None
     """Has predictions (True) or has none."""
     annotated: bool | None = None
@@ -87,6 +88,12 @@ def list_images(connection: Connection, which: ImageFilter, *, offset: int = 0, 
     rows = {row.id: _row(row) for row in connection.execute(found)}
     total = connection.execute(select(func.count()).select_from(image).where(_condition(which)))
     return ImagePage(rows=[rows[each] for each in ids], total=total.scalar_one())
+
+
+def splits_of(connection: Connection, which: ImageFilter) -> dict[str | None, int]:
+    """How many of the images that the filter finds are in each split, None for none."""
+    statement = select(image.c.split, func.count()).where(_condition(which)).group_by(image.c.split)
+    return {row[0]: row[1] for row in connection.execute(statement.order_by(image.c.split.nulls_last()))}
 
 
 def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
@@ -166,9 +173,11 @@ def _ordered(which: ImageFilter, condition: ColumnElement[bool]) -> AnySelect:
 def _condition(which: ImageFilter) -> ColumnElement[bool]:
     wanted: list[ColumnElement[bool]] = [
         image.c[name] == value
-        for name in ("status", "light", "form", "split")
+        for name in ("status", "light", "form")
         if (value := getattr(which, name)) is not None
     ]
+    if which.split is not None:
+        wanted.append(image.c.split == which.split if which.split else image.c.split.is_(None))
     if which.search:
         wanted.append(image.c.file_name.icontains(which.search, autoescape=True))
     if which.predicted is not None:

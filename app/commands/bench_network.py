@@ -227,6 +227,44 @@ def ways(
     print_rows("ways", rows, as_json=as_json)
 
 
+@commands.command("partial")
+def partial_(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    labelled: Annotated[int, typer.Option(min=1, help="Caps that are labelled.")] = 3,
+    iterations: Annotated[int, typer.Option(min=1, help="Of each training.")] = 30,
+    device: OnDevice = Device.auto,
+    fast: Fast = False,
+    as_json: AsJson = False,
+) -> None:
+    """What learning from a photo with three caps labelled does to the others of its set; two photos in turn.
+
+    Nothing that is learnt is kept.
+
+    Example: `fairyring bench network partial --real photos --count 2`
+    """
+    from fairyring.app.bench.network.partly_labelled import Lesson, partly_labelled_rows
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.model.predict.shipped import SHIPPED
+
+    lesson = Lesson(
+        weights=weights or SHIPPED,
+        detector_of=lambda weights: _detecting(weights, device, fast=fast),
+        caps=labelled,
+        iterations=iterations,
+        device=device,
+    )
+    rows: list[dict[str, Any]] = []
+    with _folder(beds) as kept, _folder(None) as folder, shown_on_stderr() as progress:
+        sets = [rendered(name, kept, count=count, progress=progress) for name in TEST_BEDS]
+        for photos in [*sets, *([] if real is None else [checked(real)])]:
+            rows += partly_labelled_rows(lesson, photos, folder=folder, progress=progress)
+    print_rows("partial", rows, as_json=as_json)
+
+
 @commands.command()
 def ablation(
     *,

@@ -86,7 +86,8 @@ def train(
 ) -> None:
     """Train the network on a project's approved images (else its annotated ones), or on COCO files.
 
-    Validated is on --val, else on images whose split is val, else on three tenths of four images and more.
+    Splits are obeyed (fairyring split). Validated is on --val, else on images whose split is val, else on
+    three tenths of the images of no split, where these are four and more.
     After Ctrl+C or SIGTERM (exit code 130), or a crash, --resume goes on. Several GPUs: start it by torchrun.
 
     Example: `fairyring train beds --out run --iterations 500`

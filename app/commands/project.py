@@ -64,6 +64,10 @@ def export(
     ] = False,
     labels_only: Annotated[bool, typer.Option("--labels-only", help="Write no photos.")] = False,
     link: Annotated[bool, typer.Option("--link", help="Link photos in place of copying them.")] = False,
+    by_split: Annotated[
+        bool,
+        typer.Option("--by-split", help="A data set each in train/, val/ and test/; no split: train/."),
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Write a data set others can load, without images whose photo is no longer the one imported.
@@ -71,8 +75,10 @@ def export(
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
     from fairyring.app.caps.filling_in import fill_in
-    from fairyring.storage.exporting import export_coco
+    from fairyring.storage.exporting import Wanted, export_coco
+    from fairyring.storage.exporting_splits import export_splits
     from fairyring.storage.project import open_project
+    from fairyring.storage.runs import require_run
 
     assert format_ is ExportFormat.coco
     if run is not None and only not in (None, Only.predicted):
@@ -83,21 +89,24 @@ def export(
     which = only or (Only.annotated if run is None else Only.predicted)
     if results is not None and which is not Only.predicted:
         raise typer.BadParameter("--results are predictions; give --only predicted or --run.")
+    if results is not None and by_split:
+        raise typer.BadParameter("--results is one list; leave out --by-split.")
     with open_project(folder) as project, steps_shown() as progress:
         fill_in(project, progress=progress)
-        with _written(results) as file:
-            report = export_coco(
-                project,
-                out,
+        with project.read() as connection:
+            wanted = Wanted(
                 only=which,
-                run=run,
+                run=None if run is None else require_run(connection, run),
                 with_ignored=with_ignored,
-                license_=license_,
-                results=file,
+                license=license_,
                 photos=ExportedPhotos.none if labels_only else photos,
                 skip_missing=skip_missing,
-                progress=progress,
             )
+        if by_split:
+            report = export_splits(project, out, wanted, progress=progress)
+        else:
+            with _written(results) as file:
+                report = export_coco(project, out, wanted, results=file, progress=progress)
     for sentence in report.left_out:
         typer.echo(sentence, err=True)
     if report.runs:
@@ -117,10 +126,11 @@ def export(
             "partial": report.partial,
             "left_out": left_out,
             "runs": report.runs,
-        }
+        } | ({"splits": report.splits} if by_split else {})
         typer.echo(json.dumps(figures))
     else:
         others = f"; {left_out} images left out" if left_out else ""
+        others += "".join(f"; {count} in {split}/" for split, count in report.splits.items())
         typer.echo(f"{report.images} images, {report.annotations} annotations in {out}{others}")
 
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from fairyring.app.jobs.training_labels import Labels, LeftOut
+from fairyring.model.splits import Split, split_called
 from fairyring.model.train.data import Example
 from fairyring.model.train.split import split_by_source
 
 FEWEST_TO_DIVIDE = 4
 """Least number of complete photos of which some are kept for validation."""
-VALIDATION, TEST = ("val", "valid", "validation"), ("test",)
-"""Values of an image's ``split`` that mean validation and test; all other images are for training."""
 TESTED = "kept for tests"
 UNFIT_TO_CHECK = "partly labelled and meant for validation"
 NOT_ASKED = "meant for validation, for which others are given"
@@ -79,29 +78,33 @@ class Division:
 def divided(labels: Labels, validation: Labels | None, *, seed: int) -> Division:
     """Which examples are for training and which for validation; test images are in neither.
 
-    Validated is ``validation`` where given, else what ``split`` names so, else a seeded three tenths of four
-    complete photos and more. Only complete photos can be validated on: caps that nobody labelled yet would
-    count as mistakes. Photos of one file, by its SHA-256, are never on two sides: what is validated on or
-    kept for tests teaches nothing, under whatever name.
+    Validated is ``validation`` where given, else what ``split`` names so, else a seeded three tenths of those
+    complete photos, four or more, of which nobody said that they are for training. Only complete photos can
+    be validated on: caps that nobody labelled yet would count as mistakes. Photos of one file, by its
+    SHA-256, are never on two sides: what is validated on or kept for tests teaches nothing, under whatever
+    name.
     """
     left_out = list(labels.left_out)
     learnt: list[_Photo] = []
     checked: list[_Photo] = []
     kept: set[str] = set()
-    for photo, split in zip(_photos_of(labels), labels.splits, strict=True):
-        if split in TEST:
+    for_training: set[str] = set()
+    for photo, said in zip(_photos_of(labels), labels.splits, strict=True):
+        split = split_called(said)
+        if split is Split.test:
             left_out.append(LeftOut(entry=photo.entry, why=TESTED))
             kept.add(photo.file)
-        elif split in VALIDATION:
+        elif split is Split.val:
             checked.append(photo)
         else:
             learnt.append(photo)
+            for_training |= {photo.file} if split is Split.train else set()
     if validation is not None:
         left_out += [LeftOut(entry=photo.entry, why=NOT_ASKED) for photo in checked]
         left_out += validation.left_out
         checked = _photos_of(validation)
     elif not checked:
-        learnt, checked = _shared_out(learnt, seed=seed)
+        learnt, checked = _shared_out(learnt, for_training=for_training, seed=seed)
     fit = [photo for photo in checked if photo.example.complete]
     left_out += [
         LeftOut(entry=photo.entry, why=UNFIT_TO_CHECK) for photo in checked if not photo.example.complete
@@ -136,9 +139,11 @@ def _photos_of(labels: Labels) -> list[_Photo]:
     return [_Photo(*both) for both in zip(labels.examples, labels.entries, strict=True)]
 
 
-def _shared_out(photos: Sequence[_Photo], *, seed: int) -> tuple[list[_Photo], list[_Photo]]:
+def _shared_out(
+    photos: Sequence[_Photo], *, for_training: Collection[str], seed: int
+) -> tuple[list[_Photo], list[_Photo]]:
     """All photos, some of the complete ones for validation if there are enough of them."""
-    complete = [photo.file for photo in photos if photo.example.complete]
+    complete = [photo.file for photo in photos if photo.example.complete and photo.file not in for_training]
     if len(set(complete)) < FEWEST_TO_DIVIDE:
         return list(photos), []
     sides = split_by_source(complete, seed=seed)

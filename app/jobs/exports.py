@@ -12,8 +12,7 @@ from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.jobs.runner import Result
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
-from fairyring.storage.choices import Only
-from fairyring.storage.exporting import export_coco
+from fairyring.storage.exporting import Wanted, export_coco
 from fairyring.storage.project import Project
 from fairyring.storage.whole_folders import temporary_folder
 
@@ -26,7 +25,7 @@ def exports_folder(project: Project) -> Path:
     return project.cache / "exports"
 
 
-def export_work(project: Project, *, only: Only, run: Run = here) -> Callable[[Progress], Result]:
+def export_work(project: Project, wanted: Wanted, *, run: Run = here) -> Callable[[Progress], Result]:
     """The work of an export job: whole outlines that are missing, the data set, the zip file."""
 
     def work(progress: Progress) -> Result:
@@ -34,7 +33,7 @@ def export_work(project: Project, *, only: Only, run: Run = here) -> Callable[[P
         exports = exports_folder(project)
         exports.mkdir(parents=True, exist_ok=True)
         with temporary_folder(exports) as folder:
-            report = export_coco(project, folder / "coco", only=only, progress=progress)
+            report = export_coco(project, folder / "coco", wanted, progress=progress)
             packed, made = folder / "coco.zip", exports / f"{uuid4().hex}.zip"
             _zip(folder / "coco", packed, progress)
             packed.replace(made)

@@ -12,10 +12,12 @@ from fairyring.app.addresses import photo_address
 from fairyring.app.live.session import Session
 from fairyring.app.live.taking_out import put_back_last, take_out_shown
 from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels import splits
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_OF_WORD, STATUS_WORDS
 from fairyring.model.light_and_form import FORMS, LIGHTS
+from fairyring.model.splits import Split
 from fairyring.storage.images import (
     ImageFilter,
     ImagePage,
@@ -54,9 +56,11 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         status = gui.add_dropdown("Status", (ANY, *STATUS_OF_WORD))
         light = gui.add_dropdown("Light", (ANY, *LIGHTS))
         form = gui.add_dropdown("Form", (ANY, *FORMS))
+        split = gui.add_dropdown("Split", (ANY, *Split, splits.NONE))
         order = gui.add_dropdown("Order", tuple(ORDERS))
     shown = gui.add_html("")
     pages = gui.add_button_group("Page", ("«", "‹", "›", "»"))
+    redraw_splits = splits.build(workspace, session)
     out = gui.add_button(
         "Take this image out", hint="With its labels; until the project is closed it can be put back"
     )
@@ -69,6 +73,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             status=STATUS_OF_WORD.get(status.value),
             light=_chosen(light.value),
             form=_chosen(form.value),
+            split="" if split.value == splits.NONE else _chosen(split.value),
             sort=ordered.sort,
             descending=ordered.descending,
         )
@@ -93,8 +98,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             session.position, session.count = position.position, position.count
         session.refresh("status")
         shown.content = image_list(page, at.page, here).html
+        await redraw_splits()
 
-    for control in (search, status, light, form, order):
+    for control in (search, status, light, form, split, order):
         control.on_update(person_did(session, filter_changed))
     pages.on_click(person_did(session, turn))
     out.on_click(person_did(session, partial(take_out_shown, workspace, session)))
@@ -152,7 +158,8 @@ def _row(row: ImageRow, *, current: bool) -> Markup:
     caps = element("span", row.caps, title=f"{row.ignored} ignored, {row.predicted} predicted")
     name = element("span", image.file_name, class_="fr-ellipsis", title=image.file_name)
     status = element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}")
-    facts = " · ".join(fact for fact in (image.light, image.form and f"form {image.form}") if fact)
+    known = (image.light, image.form and f"form {image.form}", image.split)
+    facts = " · ".join(fact for fact in known if fact)
     return element(
         "tr",
         element("td", thumbnail),

@@ -13,6 +13,7 @@ from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.job_progress import progress_of
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.choices import Only
+from fairyring.storage.exporting import Wanted
 
 EVERY_S = 0.5
 """Seconds between two reports of a running job's progress."""
@@ -34,7 +35,8 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def start_export() -> None:
         title = f"Export: {what.value.lower()}"
-        work = export_work(workspace.project, only=EXPORTS[what.value], run=workspace.crew.patient.run)
+        wanted = Wanted(only=EXPORTS[what.value])
+        work = export_work(workspace.project, wanted, run=workspace.crew.patient.run)
         workspace.start_job(session, title, work)
 
     async def start_comparison() -> None:

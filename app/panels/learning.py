@@ -82,7 +82,7 @@ def learning_work(project: Project, *, steps: int) -> Callable[[Progress], Resul
 def what_it_brought(learnt: Learnt) -> str:
     """The change of AP in a sentence."""
     if "AP" not in learnt.before or "AP" not in learnt.after:
-        return "Too few complete photos to hold any back, so nobody can say whether it sees better."
+        return "No complete photo was held back, so nobody can say whether it sees better."
     return (
         f"AP {100 * learnt.before['AP']:.1f} % before, {100 * learnt.after['AP']:.1f} % after, "
         f"on {learnt.held_out} photos that it did not learn from."

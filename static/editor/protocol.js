@@ -277,6 +277,7 @@
  * @property {number} image
  * @property {string | null} light
  * @property {string | null} form
+ * @property {string | null} split
  */
 
 /**

@@ -41,6 +41,7 @@ from fairyring.model.coco.images import ImageEntry, by_path, read_images
 from fairyring.model.geometry.shapes import Mark, Polygon
 from fairyring.model.json_values import ValueRefusedError, flag, kept, shown, text
 from fairyring.model.light_and_form import FORMS, LIGHTS
+from fairyring.model.splits import split_called
 from fairyring.storage.cap_validity import MAX_ORDER
 from fairyring.storage.formats.found import Found, FoundCap, FoundCategory, FoundImage, Problem
 from fairyring.storage.formats.fractions import require_pixels
@@ -127,10 +128,16 @@ def _image(path: str, entry: ImageEntry, licenses: dict[Id | None, Any], faults:
         height=entry.height,
         light=keys.get("light") if keys.get("light") in LIGHTS else None,
         form=keys.get("form") if keys.get("form") in FORMS else None,
-        split=text(keys.get("split")),
+        split=_split(keys),
         status=_status(keys),
         extra=_kept(extra, entry.where, faults),
     )
+
+
+def _split(keys: dict[str, Any]) -> str | None:
+    """Ours, where it is known by another word; else as the file has it."""
+    said = text(keys.get("split"))
+    return split_called(said) or said
 
 
 def _status(keys: dict[str, Any]) -> Status | None:

@@ -18,9 +18,11 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
 from fairyring.storage.importing.around import Around
 from fairyring.storage.importing.cap_checks import check_caps
+from fairyring.storage.importing.copies import in_one_split
 from fairyring.storage.importing.photo_index import PhotoIndex, has_size, other_size
 from fairyring.storage.importing.photos import Photo, examine, folders_of, named_apart
 from fairyring.storage.importing.sources import Document, Sources
+from fairyring.storage.importing.split_folders import SplitOf, folders_say_nothing, split_in_name
 from fairyring.storage.importing.within_labels import unpacked_photo
 from fairyring.storage.originals import digest_of_file
 from fairyring.storage.records import Status
@@ -48,6 +50,8 @@ class Intake(Struct, kw_only=True):
     caps: dict[str, list[FoundCap]]
     """Caps checked against their photo, by its name."""
     problems: list[Problem]
+    copies: set[str] = field(default_factory=set)
+    """Names of photos of the project that follow what is said of a copy of theirs."""
     useless: list[str] = field(default_factory=list)
     """Files of labels of which no label can be used."""
 
@@ -64,6 +68,7 @@ def take_in(
     folder: Path = Path(),
     scratch: Path | None = None,
     unsaid: Facts = NOTHING_SAID,
+    split_of: SplitOf = folders_say_nothing,
     progress: Progress,
 ) -> Intake:
     """Checks every photo, and every cap against its photo.
@@ -74,6 +79,7 @@ def take_in(
         folder: the project's.
         scratch: a folder for photos that lie within files of labels; None leaves them there.
         unsaid: what holds of photos where their file does not say otherwise.
+        split_of: the split of a photo by the folders it lies in.
         progress: called once a photo.
     """
     taking = _Taking(
@@ -82,6 +88,7 @@ def take_in(
         named=sources.named,
         scratch=scratch,
         unsaid=unsaid,
+        split_of=split_of,
     )
     tasks: list[tuple[str, str, Callable[[], None]]] = [
         (str(path), "", lambda path=path: _take_photo(taking, path)) for path in sources.photos
@@ -121,8 +128,11 @@ class _Taking(Struct, kw_only=True):
     named: list[Path]
     scratch: Path | None
     unsaid: Facts
+    split_of: SplitOf
     seen: set[int] = field(default_factory=set)
     caps: dict[int, list[FoundCap]] = field(default_factory=dict)
+    splits: dict[int, list[str]] = field(default_factory=dict)
+    """What files and folders say of which photo."""
     usable: Counter[str] = field(default_factory=Counter)
     """How many caps of each file."""
     meant: dict[tuple[Path, int], str] = field(default_factory=dict)
@@ -135,23 +145,32 @@ class _Taking(Struct, kw_only=True):
 
 def _taken(taking: _Taking, sources: Sources) -> Intake:
     photos = named_apart(taking.index.photos)
+    settled, in_two = in_one_split(photos, taking.splits)
+    follow = {
+        photo.file_name
+        for photo, before in zip(settled, photos, strict=True)
+        if photo.id is not None and photo.split != before.split
+    }
     without_labels = [
         str(document.path)
         for document in sources.documents
         if document.found.labels and not taking.usable[str(document.path)]
     ]
     return Intake(
-        photos={photo.file_name: photo for photo in photos},
+        photos={photo.file_name: photo for photo in settled},
         seen={photos[nth].file_name for nth in taking.seen},
         caps={photos[nth].file_name: caps for nth, caps in taking.caps.items()},
-        problems=taking.problems,
+        problems=[*taking.problems, *in_two],
+        copies=follow,
         useless=[*sources.unreadable, *without_labels],
     )
 
 
 def _take_photo(taking: _Taking, path: Path) -> None:
     photo = structs.replace(examine(path), light=taking.unsaid.light, form=taking.unsaid.form)
-    taking.seen.add(taking.index.add(photo))
+    nth = taking.index.add(photo)
+    taking.seen.add(nth)
+    _note_split(taking, nth, taking.split_of(path))
 
 
 def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None:
@@ -165,11 +184,22 @@ def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None
         taking.numbered.setdefault(image.id, set()).add(nth)
     photos = taking.index.photos
     photos[nth] = _told_more(photos[nth], image, taking.unsaid)
+    _note_split(taking, nth, image.split or _split_by_folders(taking, photos[nth], image))
     taking.seen.add(nth)
     caps, problems = check_caps(image.caps, photo=photos[nth], file=str(document.path))
     taking.caps.setdefault(nth, []).extend(caps)
     taking.usable[str(document.path)] += len(caps)
     taking.problems.extend(problems)
+
+
+def _note_split(taking: _Taking, nth: int, split: str | None) -> None:
+    if split is not None:
+        taking.splits.setdefault(nth, []).append(split)
+
+
+def _split_by_folders(taking: _Taking, photo: Photo, image: FoundImage) -> str | None:
+    lies_in = taking.split_of(photo.source) if photo.source is not None else None
+    return lies_in or split_in_name(image.file_name)
 
 
 def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
@@ -182,7 +212,6 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
             number=photo.number or image.id,
             light=image.light or photo.light or unsaid.light,
             form=image.form or photo.form or unsaid.form,
-            split=image.split or photo.split,
             status=status,
             extra=photo.extra | image.extra,
         )
@@ -190,7 +219,6 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
         photo,
         light=photo.light or image.light,
         form=photo.form or image.form,
-        split=photo.split or image.split,
         status=status or photo.status,
         extra=image.extra | photo.extra,
     )

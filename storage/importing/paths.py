@@ -18,6 +18,7 @@ from fairyring.storage.importing.entering import refused_as_prediction
 from fairyring.storage.importing.intake import NOTHING_SAID, Facts, Intake, take_in
 from fairyring.storage.importing.photos import photos_of_project
 from fairyring.storage.importing.sources import Sources, gather
+from fairyring.storage.importing.split_folders import split_folders
 from fairyring.storage.importing.staging import staging
 from fairyring.storage.importing.storing import ImportReport, Parcel, store
 from fairyring.storage.project import Project
@@ -70,6 +71,7 @@ def import_paths(
             folder=project.folder,
             scratch=Path(scratch),
             unsaid=unsaid,
+            split_of=split_folders(paths),
             progress=progress,
         )
         if as_ == ImportAs.predictions:

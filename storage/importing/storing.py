@@ -79,7 +79,7 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
     new = [photo for photo in intake.new_photos if not _is_known(photo, photos)]
     by_path = {_path_of(photo, link=parcel.link): photo for photo in new}
     photos |= {photo.file_name: photo for photo in enter_photos(connection, by_path)}
-    for name in intake.seen:
+    for name in intake.seen | intake.copies:
         if intake.photos[name].id is not None and intake.photos[name] != photos[name]:
             tell_more(connection, intake.photos[name])
     report = ImportReport(

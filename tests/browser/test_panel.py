@@ -112,6 +112,26 @@ def test_the_developers_page_of_viser_is_out_of_sight(server: Server, open_tab: 
     assert not tab.page.get_by_test_id("floating-panel-handle").is_visible()
 
 
+def test_a_split_is_chosen_filtered_by_and_taken_back(server: Server, open_tab: Callable[..., Tab]) -> None:
+    tab = open_tab(server)
+    tab.page.locator(".fr-tags select[name=split]").select_option("test")
+    tab.row_of("bed_1").get_by_text("test").wait_for()
+    tab.page.locator(".fairyring-notice").get_by_role("button", name="Undo").click()
+    tab.row_of("bed_1").get_by_text("test").wait_for(state="detached")
+
+
+def test_all_images_found_are_put_into_a_split_at_once_and_that_is_undone(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server)
+    tab.page.get_by_text("Splits").click()
+    tab.page.get_by_role("button", name="Put all of them there").click()
+    tab.page.get_by_text("images found: train").wait_for()
+    tab.row_of("bed_1").get_by_text("train").wait_for()
+    tab.page.get_by_role("button", name="Undo splits").click()
+    tab.page.get_by_text("images found: none").wait_for()
+
+
 def test_light_and_form_are_chosen_and_taken_back(server: Server, open_tab: Callable[..., Tab]) -> None:
     tab = open_tab(server)
     tab.page.locator(".fr-tags select[name=light]").select_option("side")

@@ -27,11 +27,12 @@ DRAWINGS = {
         protocol  addresses  settings  editor_commands  static_folder
     """,
     "storage": """
+        exporting_splits
         importing  exporting  backup  about
         taken_out  relinking
         journal  formats  migrations  image_history
         judging
-        statuses  exported_photos
+        statuses  splits  exported_photos
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
         change_sets  verdicts  rules
         db  cap_validity  open_predictions  originals
@@ -45,14 +46,14 @@ DRAWINGS = {
         contour  predict
         network  coco  colour
         geometry  photo  device  json_files  json_values
-        errors  progress  light_and_form  whole_files  processes
+        errors  progress  light_and_form  splits  whole_files  processes
     """,
 }
 OTHER_PACKAGES = {
     "app": ("storage", "model"),
     "storage": (
         *("model.coco", "model.geometry", "model.json_files", "model.json_values"),
-        *("model.photo", "model.errors", "model.progress", "model.light_and_form"),
+        *("model.photo", "model.errors", "model.progress", "model.light_and_form", "model.splits"),
     ),
     "model": (),
 }

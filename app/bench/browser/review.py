@@ -31,7 +31,7 @@ from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.scene.dataset import DOCUMENT, write_beds
 from fairyring.model.scene.presets import preset
 from fairyring.storage.choices import ExportedPhotos, Only
-from fairyring.storage.exporting import export_coco
+from fairyring.storage.exporting import Wanted, export_coco
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
 
@@ -104,6 +104,6 @@ def _quality(folder: Path, only: Only) -> dict[str, float]:
     """What is in the store, measured against all caps of the bed."""
     out = folder / only.value
     with open_project(folder / "project") as project:
-        export_coco(project, out, only=only, photos=ExportedPhotos.none)
+        export_coco(project, out, Wanted(only=only, photos=ExportedPhotos.none))
     found = evaluate_masks(read_document(out / DOCUMENT), read_document(folder / "bed" / DOCUMENT))
     return {name: found[name] for name in ("AP", "S50", "S75")}

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -39,11 +39,17 @@ class LabelledPhotos:
     def only(self, key: str, value: str) -> LabelledPhotos:
         """The images whose ``key`` (light, form) has this value."""
         chosen = [nth for nth, entry in enumerate(self.document["images"]) if entry.get(key) == value]
-        images = [self.document["images"][nth] for nth in chosen]
+        return replace(self.at(chosen), name=value)
+
+    def at(self, places: Sequence[int]) -> LabelledPhotos:
+        """The images at these places of the document, and their annotations."""
+        images = [self.document["images"][place] for place in places]
+        numbers = {entry["id"] for entry in images}
+        caps = [cap for cap in self.document["annotations"] if cap["image_id"] in numbers]
         return LabelledPhotos(
-            name=value,
-            document=self.document | {"images": images},
-            photos=[self.photos[nth] for nth in chosen],
+            name=self.name,
+            document=self.document | {"images": images, "annotations": caps},
+            photos=[self.photos[place] for place in places],
         )
 
 

@@ -17,21 +17,30 @@ export function listenToTags(image, send, say) {
     const tags = target.closest("[data-fairyring-tags]");
     const shown = image();
     if (!(tags instanceof HTMLElement) || !shown || Number(tags.dataset.fairyringTags) !== shown.id) return;
-    const value = (/** @type {string} */ name) =>
-      /** @type {HTMLSelectElement | null} */ (tags.querySelector(`select[name=${name}]`))?.value || null;
+    const choices = [...tags.querySelectorAll("select")];
     /** @type {Tag} */
-    const before = { type: "tag", image: shown.id, light: shown.light, form: shown.form };
-    /** @type {Tag} */
-    const now = { ...before, light: value("light"), form: value("form") };
-    const tell = (/** @type {Tag} */ tag) => {
-      shown.light = tag.light;
-      shown.form = tag.form;
-      send(tag);
-    };
-    tell(now);
-    say(`${shown.file_name}: light ${now.light ?? "not known"}, form ${now.form ?? "not known"}.`, "info", {
+    const tag = { type: "tag", image: shown.id, light: null, form: null, split: null };
+    // What the server drew is how things were; somebody else may have said so since the image was opened.
+    const before = { ...tag, ...said(choices, (option) => option.defaultSelected) };
+    const now = { ...tag, ...said(choices, (option) => option.selected) };
+    for (const option of choices.flatMap(({ options }) => [...options])) option.defaultSelected = option.selected;
+    send(now);
+    const words = `light ${now.light ?? "not known"}, form ${now.form ?? "not known"}, split ${now.split ?? "none"}`;
+    say(`${shown.file_name}: ${words}.`, "info", {
       word: "Undo",
-      act: () => tell(before),
+      act: () => send(before),
     });
   });
+}
+
+/**
+ * The tags by their names; null for what is not known.
+ *
+ * @param {HTMLSelectElement[]} choices
+ * @param {(option: HTMLOptionElement) => boolean} holds
+ */
+function said(choices, holds) {
+  return Object.fromEntries(
+    choices.map(({ name, options }) => [name, [...options].find(holds)?.value || null]),
+  );
 }

@@ -48,6 +48,9 @@ def of_files(labelled: Labels, files: list[str]) -> Labels:
         ([None] * 10, 7, 3),
         (["train"] * 5 + ["val"] * 2 + ["test"], 5, 2),
         ([None] * 4 + ["test"] * 6, 3, 1),
+        (["train"] * 9 + ["test"], 9, 0),
+        (["train"] * 3 + [None] * 4, 6, 1),
+        (["training"] * 5 + ["valid"] * 2 + ["Test"], 5, 2),
     ],
 )
 def test_images_are_divided_by_their_split_else_seven_to_three(
@@ -59,7 +62,15 @@ def test_images_are_divided_by_their_split_else_seven_to_three(
     assert not {e.path for e in photos.learnt} & {e.path for e in photos.checked}
     given = divided(some, of_files(labels([None] * 3), ["a", "b", "c"]), seed=0)
     assert len(given.checked) == 3
-    assert len(given.learnt) == sum(split in (None, "train") for split in splits)
+    assert len(given.learnt) == sum(split in (None, "train", "training") for split in splits)
+
+
+def test_a_copy_of_a_photo_for_training_is_not_validated_on() -> None:
+    files = ["a", "b", "c", "d", "a"]
+    for seed in range(20):
+        photos = divided(of_files(labels([None] * 4 + ["train"]), files), None, seed=seed)
+        assert "a" not in {e.sha256 for e in photos.checked}
+        assert [e.sha256 for e in photos.learnt].count("a") == 2
 
 
 def test_a_photo_labelled_in_part_is_learnt_from_and_never_validated_on() -> None:

@@ -174,6 +174,19 @@ def test_light_and_form_are_stored_and_told_to_every_tab(port: int, project: Pro
         assert "none of top, side, dark" in ada.expect(Notice).text
 
 
+def test_a_split_is_stored_shown_in_the_list_and_offered_with_the_tags(port: int, project: Project) -> None:
+    with Tab(port, name="Ada", image=1) as ada, Tab(port, name="Bo", image=1) as bo:
+        ada.expect(Show)
+        bo.expect(Show)
+        ada.send(Tag(image=1, light="side", split="val"))
+        until(lambda: "side · val" in bo.panel.html)
+        assert '<option value="val" selected' in bo.panel.html
+        with sqlite3.connect(project.folder / "project.db") as database:
+            assert database.execute("SELECT split FROM image WHERE id = 1").fetchone() == ("val",)
+        ada.send(Tag(image=1, light="side", split=None))
+        until(lambda: "side · val" not in bo.panel.html)
+
+
 def test_the_panel_counts_and_averages_what_is_selected(port: int) -> None:
     with Tab(port, image=1) as tab:
         tab.expect(Show)

@@ -69,7 +69,7 @@ def test_an_image_has_the_sha256_of_its_exported_file(beds, out):
 def test_the_head_says_who_worked_on_it_until_when_and_under_which_licence(beds, out, tmp_path):
     store(beds, Cap(visible=[SQUARE]))
     moved(beds, by="ben")
-    info = export(beds, out, license_="CC-BY-4.0")["info"]
+    info = export(beds, out, license="CC-BY-4.0")["info"]
     assert (info["contributors"], info["contributor"]) == (["ann", "ben"], "ann, ben")
     assert (info["version"], info["license"]) == ("2", "CC-BY-4.0")
     assert info["date_created"].startswith(str(info["year"]))
