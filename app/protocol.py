@@ -80,6 +80,8 @@ class FindCap(FromEditor, frozen=True, tag="find_cap"):
     """Of each point, whether it is to be on the cap; the first is."""
     box: tuple[float, float, float, float] | None = None
     """Left, top, right, bottom."""
+    besides: str | None = None
+    """An annotation that hides nothing of it: the one that is to be put right."""
 
 
 class Compare(FromEditor, frozen=True, tag="compare"):

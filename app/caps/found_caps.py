@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from fairyring.model.predict.predictor import Predictor
     from fairyring.model.predict.seen import Detection, Seen
 
+PHOTOS = 2
+"""What was seen in so many photos is remembered: two people may point, each in another."""
 NEAR_PX = 300.0
 """Caps farther from what is pointed at than this hide nothing of it."""
 
@@ -55,7 +57,7 @@ def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> 
     return list(compress(outlines, meeting.tolist()))
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=PHOTOS)
 def _seen(path: Path, weights: Path, changed: int) -> tuple[Predictor, Seen]:
     from fairyring.model.predict.scale import see_at_its_scale
 

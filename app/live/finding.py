@@ -17,6 +17,9 @@ from fairyring.model.errors import FairyringError
 
 log = logging.getLogger(__name__)
 
+Found = tuple[float, list[list[float]]] | None
+"""Score and outline; None where the network sees no cap."""
+
 
 class Finding:
     """Answers one tab: one question at a time, and of those that wait only the latest."""
@@ -25,17 +28,22 @@ class Finding:
         self._workspace = workspace
         self._session = session
         self._latest: FindCap | None = None
+        self._asked: tuple[FindCap, asyncio.Future[Found]] | None = None
         self._task: asyncio.Task[None] | None = None
 
     def ask(self, request: FindCap) -> None:
-        """Asks, in place of a question that has not been begun."""
+        """Asks, in place of a question that has not been begun, or is about another image."""
         self._latest = request
+        if self._asked is not None and self._asked[0].image != request.image:
+            self._asked[1].cancel()
         if self._task is None:
             self._task = asyncio.create_task(self._answer_all())
 
     def close(self) -> None:
         """Drops what waits, and what is at work unless it has been begun."""
         self._latest = None
+        if self._asked is not None:
+            self._asked[1].cancel()
         if self._task is not None:
             self._task.cancel()
 
@@ -48,23 +56,26 @@ class Finding:
             self._task = None
 
     async def _answer(self, request: FindCap) -> None:
-        found: tuple[float, list[list[float]]] | None = None
+        found: Found = None
         try:
             found = await self._found(request)
         except FairyringError as error:
-            self._session.notify(str(error), "error")
+            # Nobody asked for a first look, and whoever asks for a cap later is told.
+            if request.points or request.box:
+                self._session.notify(str(error), "error")
         except Exception:
             log.exception("The network could not be asked.")
         score, visible = found or (None, None)
         self._session.send(FoundCap(seq=request.seq, image=request.image, visible=visible, score=score))
 
-    async def _found(self, request: FindCap) -> tuple[float, list[list[float]]] | None:
+    async def _found(self, request: FindCap) -> Found:
         caps, project = self._session.caps, self._workspace.project
         if caps is None or caps.image.id != request.image:
             return None
         weights = await anyio.to_thread.run_sync(require_weights, project)
         path = await anyio.to_thread.run_sync(project.originals.path_of, caps.image)
-        others = [a.cap.visible for a in caps.annotations.values() if a.cap.visible and not a.deleted]
+        live = [a for a in caps.annotations.values() if a.cap.visible and not a.deleted]
+        others = [a.cap.visible for a in live if a.uid != request.besides]
         taken = {a.cap.prediction for a in caps.annotations.values()}
         others += [p.visible for p in caps.predictions if p.id not in taken]
         box = request.box
@@ -78,4 +89,10 @@ class Finding:
             front=await anyio.to_thread.run_sync(near, others, places),
         )
         answer = self._workspace.crew.network.ask(lambda: (cap_found, (asked,)), urgency=URGENT)
-        return await asyncio.wrap_future(answer)
+        waited_for = asyncio.wrap_future(answer)
+        self._asked = request, waited_for
+        try:
+            await asyncio.wait({waited_for})
+        finally:
+            self._asked = None
+        return None if waited_for.cancelled() else waited_for.result()

@@ -6,9 +6,11 @@
 
 import { isPrediction } from "./geometry/shapes.js";
 import { Fingers } from "./input/fingers.js";
+import { tightened } from "./input/actions/tightening.js";
 import { bringFocusBack } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
+import { RimSuggestion } from "./input/rim_suggestion.js";
 import { Toolbox } from "./input/toolbox.js";
 import { travelIn } from "./input/travel.js";
 import { Opening } from "./opening.js";
@@ -19,7 +21,7 @@ import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
 import { EditorState } from "./state/editor_state.js";
 import { browserStorage } from "./sync/browser_storage.js";
-import { CapRequests } from "./sync/cap_requests.js";
+import { CapRequests, LOOK } from "./sync/cap_requests.js";
 import { KeptDrawings } from "./sync/kept_drawings.js";
 import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
@@ -44,6 +46,7 @@ import { followView } from "./ui/view_controls.js";
 import { aboutWindow } from "./ui/window.js";
 import { zoomButtonsIn } from "./ui/zoom_buttons.js";
 
+/** @typedef {import("./geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("./protocol.js").FromServer} FromServer */
 /** @typedef {import("./protocol.js").ToServer} ToServer */
 
@@ -102,6 +105,12 @@ export class Editor {
     });
     this.#reviewing = new Reviewing(state, send);
     this.#found = new CapRequests(send, () => state.image?.id ?? null);
+    const sight = {
+      state,
+      patch: (/** @type {Bounds} */ bounds) => photos.patch(bounds),
+      rimIn: this.#found.rimIn.bind(this.#found),
+    };
+    const suggestion = new RimSuggestion(state, (shape) => tightened(sight, shape));
     const threshold = new Threshold(state);
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
@@ -110,6 +119,7 @@ export class Editor {
       this.#refusals.sketch,
       threshold.sketch,
       this.#reviewing.sketch,
+      suggestion.sketch,
     ]);
     this.#say = noticesIn(host);
     this.#refusals = new Refusals({
@@ -152,14 +162,15 @@ export class Editor {
       frame: this.#frame,
       drawings: this.#drawings,
       say: this.#say,
+      look: () => void this.#found.ask(LOOK, { keep: false }),
     });
     this.#perform = performer({
-      state,
       host,
       toolbox: this.#toolbox,
       sync: this.#sync,
       pointer,
-      photos,
+      ...sight,
+      suggestion,
       reviewing: this.#reviewing,
       send,
       say: (text) => this.#say(text),
@@ -172,6 +183,7 @@ export class Editor {
     expose(host, {
       state,
       frame: this.#frame,
+      suggested: (shape) => suggestion.of(shape),
       waiting: () => this.#unsaved,
       asking: () => this.#found.busy,
       connection: () => this.#transport.state,

@@ -24,14 +24,19 @@ import { firstAddress, putCapInAddress, putInAddress } from "./ui/address.js";
  * @property {Photos} photos
  * @property {Frame} frame
  * @property {KeptDrawings} drawings
+ * @property {() => void} look  has the network look at the photo
  * @property {(text: string, level: "info" | "warning" | "error") => void} say
  */
+
+/** Whoever stays on an image so long may want to point at its caps; whoever only leafs through does not. */
+const STAYS_MS = 1500;
 
 const HALF_DRAWN = "An outline is half drawn here: W goes on with it, Enter closes it.";
 
 export class Opening {
   /** When the person asked for the image that has not come yet. @type {number | null} */
   #asked = null;
+  #stays = 0;
   #parts;
 
   /** @param {Parts} parts */
@@ -72,6 +77,7 @@ export class Opening {
   #leave() {
     const { state, toolbox, frame, drawings, say } = this.#parts;
     const name = state.image?.file_name;
+    clearTimeout(this.#stays);
     toolbox.leave();
     if (state.image) state.clipboard.leave(state.items.all, state.image.id);
     if (drawings.leave() && name) say(`The outline stays half drawn on ${name}.`, "info");
@@ -90,8 +96,10 @@ export class Opening {
 
   /** @type {(asked: number, ahead: string[]) => void} */
   #drawn(asked, ahead) {
-    const { photos, frame } = this.#parts;
+    const { photos, frame, look } = this.#parts;
     frame.log({ event: asked, drawn: performance.now(), draw_ms: 0, kind: "switch" });
     photos.prefetch(ahead);
+    clearTimeout(this.#stays);
+    this.#stays = setTimeout(look, STAYS_MS);
   }
 }

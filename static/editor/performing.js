@@ -9,7 +9,7 @@ import { askWords } from "./ui/words_asked.js";
 /** @typedef {import("./input/actions/context.js").Context} Context */
 /** @typedef {import("./input/pointer.js").Pointer} Pointer */
 /** @typedef {import("./input/toolbox.js").Toolbox} Toolbox */
-/** @typedef {import("./render/photos.js").Photos} Photos */
+/** @typedef {import("./input/rim_suggestion.js").RimSuggestion} RimSuggestion */
 /** @typedef {import("./sync/sync.js").Sync} Sync */
 
 /**
@@ -18,23 +18,23 @@ import { askWords } from "./ui/words_asked.js";
  * @property {Toolbox} toolbox
  * @property {Sync} sync
  * @property {Pointer} pointer
- * @property {Photos} photos
+ * @property {RimSuggestion} suggestion
  * @property {import("./reviewing.js").Reviewing} reviewing
  */
 
 /**
  * Carries out commands by name; false for one that nobody knows, or that has nothing to do.
  *
- * @type {(parts: Own & Pick<Context, "state" | "send" | "say" | "toggle" | "askScore">) => (name: string) => boolean}
+ * @type {(parts: Own & Pick<Context, "state" | "send" | "say" | "toggle" | "askScore" | "patch" | "rimIn">) => (name: string) => boolean}
  */
-export function performer({ host, toolbox, sync, pointer, photos, reviewing, ...passed }) {
+export function performer({ host, toolbox, sync, pointer, suggestion, reviewing, ...passed }) {
   /** @type {Context} */
   const context = {
     ...passed,
     tool: () => toolbox.tool,
     use: (name) => toolbox.use(name),
     pointer: () => toImage(passed.state.viewport.view, ...pointer.at),
-    patch: (bounds) => photos.patch(bounds),
+    suggested: (shape) => suggestion.of(shape),
     drawPart: () => toolbox.drawPart(),
     finish: () => toolbox.finish(),
     undo: () => sync.undo(),

@@ -7,14 +7,15 @@
 import { isPrediction } from "./geometry/shapes.js";
 import { toImage, toScreen } from "./geometry/view.js";
 
+/** @typedef {import("./geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./render/frame.js").Frame} Frame */
 /** @typedef {import("./state/editor_state.js").EditorState} EditorState */
 
 /**
  * @param {HTMLElement} host
- * @param {{state: EditorState, frame: Frame, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string, review: import("./state/review.js").Review}} editor
+ * @param {{state: EditorState, frame: Frame, suggested: (shape: Shape) => unknown, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string, review: import("./state/review.js").Review}} editor
  */
-export function expose(host, { state: editorState, frame, waiting, asking, connection, tool, review }) {
+export function expose(host, { state: editorState, frame, suggested, waiting, asking, connection, tool, review }) {
   const { viewport } = editorState;
   const view = {
     /**
@@ -56,6 +57,11 @@ export function expose(host, { state: editorState, frame, waiting, asking, conne
     /** How the outline of the one selected cap came about. */
     get fit() {
       return editorState.explanation;
+    },
+    /** The one selected cap as it is offered to be. */
+    get suggestion() {
+      const { sole } = editorState;
+      return sole && suggested(sole);
     },
     get waiting() {
       return waiting();

@@ -269,6 +269,7 @@
  * @property {Point[]} points
  * @property {boolean[]} wanted
  * @property {[number, number, number, number] | null} box
+ * @property {string | null} besides
  */
 
 /**

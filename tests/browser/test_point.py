@@ -54,3 +54,15 @@ def test_a_missed_cap_is_taken_by_a_click_and_another_by_a_box(tab: Tab, project
     tab.press("Control+z", "Control+z")
     tab.saved()
     assert live_caps(project) == []
+
+
+def test_the_network_looks_at_a_photo_on_which_somebody_stays_and_answers_at_once(tab: Tab) -> None:
+    tab.wait_for("window.fairyring.state.asking")
+    tab.page.wait_for_function("() => !window.fairyring.state.asking", timeout=120_000)
+    ring = max(tab.state("predictions"), key=lambda p: p["score"])["cap"]["visible"][0]
+    tab.page.mouse.move(*tab.screen(centroid(ring)))
+    tab.page.mouse.move(*tab.screen((centroid(ring)[0] + 2, centroid(ring)[1])))
+    tab.press("Delete", "e")
+    tab.click(centroid(ring))
+    tab.page.wait_for_function("() => window.fairyring.state.shapes.length === 1", timeout=5_000)
+    assert likeness(tab.state("shapes")[0]["cap"]["visible"][0], ring) > 0.75

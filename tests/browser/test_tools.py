@@ -152,6 +152,31 @@ def test_a_loose_circle_is_drawn_to_the_rim_by_one_key(tab: Tab, project: Path) 
     assert area_of_outline(cap["visible"]) == pytest.approx(math.pi * 45**2, rel=0.03)
 
 
+def test_the_rim_near_a_circle_is_offered_at_once_and_taken_as_it_is_shown(tab: Tab, project: Path) -> None:
+    tab.press("c")
+    tab.drag((204, 297), (254, 297))
+    tab.wait_for("window.fairyring.state.suggestion")
+    offered = tab.state("suggestion")
+    tab.saved()
+    tab.press("t")
+    tab.wait_for("window.fairyring.state.shapes.some((shape) => shape.revision === 2)")
+    tab.saved()
+    [cap] = [cap for cap in stored(project) if cap["mark"]]
+    assert cap["mark"]["r"] == pytest.approx(45, abs=0.7)
+    assert cap["visible"] == [pytest.approx(ring) for ring in offered["visible"]]
+    assert tab.state("suggestion") is None
+
+
+def test_what_is_offered_goes_when_another_cap_is_selected(tab: Tab) -> None:
+    tab.press("w")
+    way = [on(200, 300, 49, degrees) for degrees in range(0, 361, 6)]
+    tab.drag(way[0], *way[1:])
+    tab.wait_for("window.fairyring.state.suggestion")
+    tab.press("v")
+    tab.select((350, 200))
+    assert tab.state("suggestion") is None
+
+
 def test_delete_takes_the_cap_under_the_pointer_and_selects_nothing(tab: Tab, project: Path) -> None:
     tab.page.mouse.move(*tab.screen((350, 200)))
     tab.page.mouse.move(*tab.screen((352, 203)))

@@ -12,7 +12,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from playwright.sync_api import Browser
+import numpy as np
+from playwright.sync_api import Browser, Page
 
 from fairyring.app.bench.browser import stopwatch
 from fairyring.app.bench.browser.leafing import VIEWPORT, jump, leaf, measured_tab
@@ -22,8 +23,17 @@ from fairyring.app.bench.plain import inserted_at_once, synced_inserts
 from fairyring.app.bench.projects import Bed, make_project
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, p95_row
-from fairyring.storage.images import ImageFilter, list_images
+from fairyring.model.json_files import read_json
+from fairyring.model.scene.dataset import DOCUMENT, name_of_bed, write_beds
+from fairyring.model.scene.presets import preset
+from fairyring.storage.images import ImageFilter, list_ids, list_images
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.project import Project
 
+LOOKS_MS = 120_000
+"""So long the network may look at a photo for the first time."""
+RESTS_MS = 300
+"""So long the pointer rests at a place."""
 Ids = dict[str, int]
 """Image numbers by file name."""
 SIZES = {"1280 × 720": (1280, 720, 100), "4000 × 3000": (4000, 3000, 400)}
@@ -46,10 +56,13 @@ def editor_rows(*, quick: bool = False) -> list[Row]:
             add_crowd(project, folder / "crowd")
             with project.read() as connection:
                 page = list_images(connection, ImageFilter(), limit=len(beds) + 1)
+            rendered = _add_rendered(project, folder / "rendered")
         ids = {row.image.file_name: row.image.id for row in page.rows}
         blank = _blank(browser, moves)
         with served(folder / "project") as server, measured_tab(browser, server) as tab:
             rows = [row for crowd in CROWDS for row in _pointer(tab, ids, crowd, moves=moves, blank=blank)]
+            rows.append(_redrawing(tab, ids, count=edits, blank=blank["release"]))
+            rows.append(_pointing(tab, rendered, count=edits))
             rows += _editing(tab, ids, folder, count=edits)
             rows += _accepting(tab, ids, folder, times=1 if quick else 5)
             rows += _dragging_in_a_crowd(tab, moves)
@@ -66,13 +79,17 @@ def _album(size: str, switches: int) -> list[Bed]:
     ]
 
 
-def _blank(browser: Browser, moves: int) -> list[float]:
+def _blank(browser: Browser, moves: int) -> dict[str, list[float]]:
+    """Frames of each gesture on a page that draws nothing."""
     page = browser.new_page(viewport=VIEWPORT)
     page.set_content(stopwatch.BLANK)
-    for x, y in _circle((700, 400), moves):
-        page.mouse.move(x, y)
-    page.wait_for_function("() => frames.length > 5")
-    frames = page.evaluate("() => frames")
+    gestures = {"drag": _turn_dragging, "pan": _turn_panning, "zoom": _turn_wheel, "release": _click_often}
+    frames: dict[str, list[float]] = {}
+    for kind, gesture in gestures.items():
+        page.evaluate("() => void (frames.length = 0)")
+        gesture(page, moves)
+        page.wait_for_function("() => frames.length > 5")
+        frames[kind] = page.evaluate("() => frames")
     page.close()
     return frames
 
@@ -82,7 +99,7 @@ def _circle(middle: Point, count: int, *, radius: float = 25) -> list[Point]:
     return [(middle[0] + radius * math.sin(a), middle[1] + radius * (1 - math.cos(a))) for a in angles]
 
 
-def _pointer(tab: Tab, ids: Ids, crowd: str, *, moves: int, blank: list[float]) -> list[Row]:
+def _pointer(tab: Tab, ids: Ids, crowd: str, *, moves: int, blank: dict[str, list[float]]) -> list[Row]:
     bed, target = CROWDS[crowd]
     jump(tab, ids[bed.name])
     gestures: dict[str, Callable[[Tab, int], None]] = {"drag": _drag, "pan": _pan, "zoom": _zoom}
@@ -92,7 +109,8 @@ def _pointer(tab: Tab, ids: Ids, crowd: str, *, moves: int, blank: list[float]) 
         gesture(tab, moves)
         waited, drawing = stopwatch.frames(tab, kind)
         what = f"{kind}, {crowd}"
-        rows.append(p95_row(f"{what}: event to drawn (blank page)", waited, target=target, reference=blank))
+        figure = f"{what}: event to drawn (the same on a blank page)"
+        rows.append(p95_row(figure, waited, target=target, reference=blank[kind]))
         rows.append(p95_row(f"{what}: drawing alone", drawing, target=6))
         if kind == "drag":
             fit, vertex = stopwatch.laps(tab, "fit"), stopwatch.laps(tab, "vertex")
@@ -111,27 +129,87 @@ def _vertex(tab: Tab, nth: int) -> Point:
 
 
 def _drag(tab: Tab, moves: int) -> None:
-    x, y = _vertex(tab, 0)
-    tab.page.mouse.move(x, y)
-    tab.page.mouse.down()
-    for at in _circle((x, y), moves):
-        tab.page.mouse.move(*at)
-    tab.page.mouse.up()
+    _turn_dragging(tab.page, moves, start=_vertex(tab, 0))
     tab.saved()
 
 
 def _pan(tab: Tab, moves: int) -> None:
-    tab.page.mouse.move(700, 450)
-    tab.page.mouse.down(button="middle")
-    for x, y in _circle((700, 450), moves, radius=200):
-        tab.page.mouse.move(x, y)
-    tab.page.mouse.up(button="middle")
+    _turn_panning(tab.page, moves)
 
 
 def _zoom(tab: Tab, moves: int) -> None:
-    tab.page.mouse.move(600, 400)
+    _turn_wheel(tab.page, moves)
+
+
+def _turn_dragging(page: Page, moves: int, *, start: Point = (700, 400)) -> None:
+    page.mouse.move(*start)
+    page.mouse.down()
+    for at in _circle(start, moves):
+        page.mouse.move(*at)
+    page.mouse.up()
+
+
+def _turn_panning(page: Page, moves: int) -> None:
+    page.mouse.move(700, 450)
+    page.mouse.down(button="middle")
+    for x, y in _circle((700, 450), moves, radius=200):
+        page.mouse.move(x, y)
+    page.mouse.up(button="middle")
+
+
+def _turn_wheel(page: Page, moves: int) -> None:
+    page.mouse.move(600, 400)
     for i in range(moves):
-        tab.page.mouse.wheel(0, -60 if i % 40 < 20 else 60)
+        page.mouse.wheel(0, -60 if i % 40 < 20 else 60)
+
+
+def _click_often(page: Page, clicks: int) -> None:
+    page.mouse.move(600, 400)
+    for _ in range(clicks):
+        page.mouse.down()
+        page.mouse.up()
+
+
+def _redrawing(tab: Tab, ids: Ids, *, count: int, blank: list[float]) -> Row:
+    """Redraws a quarter of one outline after another; from letting go to the new outline drawn."""
+    bed, _ = CROWDS["100 × 60"]
+    jump(tab, ids[bed.name])
+    tab.press("Escape", "f", "r")
+    rims = [shape["cap"]["visible"][0] for shape in tab.state("shapes")]
+    stopwatch.start(tab)
+    for nth in range(count):
+        x, y = np.reshape(rims[nth], (-1, 2)).T
+        quarter = list(zip(x[: len(x) // 4].tolist(), y[: len(y) // 4].tolist(), strict=True))
+        tab.drag(quarter[0], *quarter[1:])
+    tab.saved()
+    tab.press("v")
+    drawn, _ = stopwatch.frames(tab, "release")
+    return p95_row("stretch of a rim: release to redrawn (release on a blank page)", drawn, reference=blank)
+
+
+def _pointing(tab: Tab, rendered: tuple[int, list[Point]], *, count: int) -> Row:
+    """Rests on caps that nobody has labelled; from there to the cap drawn that the network sees."""
+    image, places = rendered
+    jump(tab, image)
+    tab.press("e")
+    tab.page.wait_for_function("() => !window.fairyring.state.asking", timeout=LOOKS_MS)
+    stopwatch.start(tab)
+    for place in places[:count]:
+        tab.page.mouse.move(*tab.screen(place))
+        tab.page.wait_for_timeout(RESTS_MS)
+    tab.press("v")
+    figure = "pointing: pointer at rest to the network's cap drawn"
+    return p95_row(figure, stopwatch.laps(tab, "preview"), target=60)
+
+
+def _add_rendered(project: Project, folder: Path) -> tuple[int, list[Point]]:
+    """A rendered bed without labels: its number, and places on its caps."""
+    write_beds(folder, preset("paper"), count=1, seed=3005)
+    import_paths(project, [folder / "images"], link=True)
+    with project.read() as connection:
+        (image,) = list_ids(connection, ImageFilter(search=name_of_bed(0)))
+    caps = read_json(folder / DOCUMENT)["annotations"]
+    return image, [centroid(max(cap["segmentation"], key=len)) for cap in caps]
 
 
 def _editing(tab: Tab, ids: Ids, folder: Path, *, count: int) -> list[Row]:

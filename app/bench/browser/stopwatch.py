@@ -12,7 +12,7 @@ SCRIPT = r"""
   }
   // Some browsers tell of a move before they tell of it to those that listen for `pointermove`.
   addEventListener("pointerrawupdate", ({ timeStamp }) => (last.pointermove = timeStamp), true);
-  const laps = { saved: [], accepted: [], fit: [], vertex: [] };
+  const laps = { saved: [], accepted: [], fit: [], vertex: [], preview: [] };
   const asked = new Map();
   const sequence = (data) => Number(/"seq":\s*(\d+)/.exec(data)[1]);
   const after = (task) => {
@@ -30,6 +30,7 @@ SCRIPT = r"""
       laps.saved.push(performance.now() - last.pointerup);
       laps.accepted.push(performance.now() - last.keydown);
     }
+    if (data.startsWith('{"type":"found_cap"')) onScreen("preview", last.pointermove);
     if (data.startsWith('{"type":"fit"')) onScreen("fit", asked.get(sequence(data)));
   }
   window.WebSocket = class extends WebSocket {
@@ -54,14 +55,16 @@ BLANK = r"""
 <body style="margin: 0; height: 100vh"><script>
   let since = null;
   const frames = [];
-  addEventListener("pointermove", (event) => {
-    if (since !== null) return;
-    since = event.timeStamp;
-    requestAnimationFrame(() => {
-      frames.push(performance.now() - since);
-      since = null;
+  for (const kind of ["pointermove", "pointerup", "wheel"]) {
+    addEventListener(kind, (event) => {
+      if (since !== null) return;
+      since = event.timeStamp;
+      requestAnimationFrame(() => {
+        frames.push(performance.now() - since);
+        since = null;
+      });
     });
-  });
+  }
 </script>
 """
 """A page that draws nothing: ``frames`` is what the browser itself takes from an event to a frame."""

@@ -35,6 +35,9 @@ const STRAYING = 0.35;
 const BENDING = 0.08;
 /** By so many samples at most. */
 const STEEPEST = 3;
+/** What the rim that the network sees saves, of what a usual edge does; it saves less the farther away, up to so many pixels. */
+const SEEN = 1.5;
+const SEEN_WITHIN_PX = 4;
 /** Beyond that the rim is not looked for. */
 const FAR = 10;
 const RAYS = { least: 48, most: 240 };
@@ -55,9 +58,10 @@ export function reachAround(ring) {
  *
  * @param {number[]} ring
  * @param {Patch} patch
+ * @param {number[] | null} [seen]  where the network sees a rim
  * @returns {number[]}
  */
-export function tightened(ring, patch) {
+export function tightened(ring, patch, seen = null) {
   const middle = middleOf(ring);
   const radius = Math.sqrt(areaOfRing(ring) / Math.PI);
   const count = Math.round(Math.min(RAYS.most, Math.max(RAYS.least, 2 * Math.PI * radius)));
@@ -65,12 +69,15 @@ export function tightened(ring, patch) {
   const reach = Math.max(LEAST_PX, SHARE * radius);
   const rays = Array.from({ length: count }, (_, i) => {
     const angle = (2 * Math.PI * i) / count;
-    return { dx: Math.cos(angle), dy: Math.sin(angle), rough: reachOf(ring, middle, angle) };
+    const rough = reachOf(ring, middle, angle);
+    return { dx: Math.cos(angle), dy: Math.sin(angle), rough, seen: seen && reachOf(seen, middle, angle) };
   });
   const samples = Math.ceil((Math.max(...rays.map(({ rough }) => rough)) + reach) / step);
   const costs = costsOf(rays.map((ray) => slopesAlong(patch, middle, ray, { step, samples })), {
     rough: rays.map(({ rough }) => rough / step),
     reach: reach / step,
+    seen: rays.map((ray) => (ray.seen === null ? null : ray.seen / step)),
+    within: SEEN_WITHIN_PX / step,
   });
   const radii = smoothed(cheapestRound(costs)).map((k) => k * step);
   const points = rays.map(({ dx, dy }, i) => {
@@ -145,7 +152,11 @@ function reachOf(ring, [x, y], angle) {
   return far;
 }
 
-/** @typedef {{dx: number, dy: number, rough: number}} Ray  where it leads, and how far out the rough outline is */
+/**
+ * Where it leads, and how far out the rough outline is, and the rim that the network sees.
+ *
+ * @typedef {{dx: number, dy: number, rough: number, seen: number | null}} Ray
+ */
 
 /**
  * How strong an edge is at each of the samples of a ray, from the middle outwards.
@@ -164,16 +175,18 @@ function slopesAlong(patch, [x, y], { dx, dy }, { step, samples }) {
 /**
  * What it costs to put the rim at each sample of each ray; an edge as strong as a usual ray's strongest saves one.
  *
- * @type {(slopes: number[][], band: {rough: number[], reach: number}) => Float32Array[]}
+ * @type {(slopes: number[][], band: {rough: number[], reach: number, seen: (number | null)[], within: number}) => Float32Array[]}
  */
-function costsOf(slopes, { rough, reach }) {
+function costsOf(slopes, { rough, reach, seen, within }) {
   const inBand = (/** @type {number} */ k, /** @type {number} */ i) => Math.abs(k - rough[i]) <= reach;
   const strongest = slopes.map((ray, i) => Math.max(...ray.filter((_, k) => inBand(k, i)), 0)).sort((a, b) => a - b);
   const usual = Math.max(strongest[strongest.length >> 1], 1);
   return slopes.map((ray, i) =>
     Float32Array.from(ray, (slope, k) => {
       const strayed = (k - rough[i]) / reach;
-      return Math.abs(strayed) > 1 ? FAR * Math.abs(strayed) : STRAYING * strayed ** 2 - Math.min(slope / usual, 1.5);
+      if (Math.abs(strayed) > 1) return FAR * Math.abs(strayed);
+      const far = Math.abs(k - (seen[i] ?? Infinity)) / within;
+      return STRAYING * strayed ** 2 - Math.min(slope / usual, 1.5) - SEEN * Math.max(0, 1 - far);
     }),
   );
 }

@@ -35,6 +35,13 @@ test("so is a rough loop of few points", () => {
   assert.ok(strays(tightened(rough, DISC), 40) < 1.5);
 });
 
+test("where nothing shows an edge, the rim is where the network sees it", () => {
+  const dark = photo(() => false);
+  const seen = polygonOfCircle(circle(201, 200, 40));
+  const ring = tightened(polygonOfCircle(circle(204, 197, 44)), dark, seen);
+  for (const [x, y] of pointsOf(ring)) assert.ok(Math.abs(Math.hypot(x - 201, y - 200) - 40) < 1.2);
+});
+
 test("where a neighbour lies in front, the outline follows the border between the two", () => {
   const cut = photo((x, y) => Math.hypot(x - 200, y - 200) < 40 && x < 215);
   const loose = polygonOfCircle(circle(198, 200, 38)).map((value, i) => (i % 2 ? value : Math.min(value, 221)));

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { CapRequests } from "../../../static/editor/sync/cap_requests.js";
+import { CapRequests, LOOK } from "../../../static/editor/sync/cap_requests.js";
 
 /** @typedef {import("../../../static/editor/protocol.js").FindCap} FindCap */
 
@@ -52,4 +52,19 @@ test("an answer to something else is not taken, and where nobody can be asked th
   requests.forget();
   assert.equal(await question, null);
   assert.equal(await asking({ online: false }).requests.ask(at(1), { keep: true }), null);
+});
+
+test("where the network sees a rim is asked once it has seen the photo, and not of one it has not", async () => {
+  const { requests, sent, answer } = asking();
+  assert.equal(await requests.rimIn([0, 0, 9, 9], "cap"), null);
+  assert.deepEqual([sent.length, requests.sees], [0, false]);
+  void requests.ask(LOOK, { keep: false });
+  answer(sent[0]);
+  assert.equal(requests.sees, true);
+  const rim = requests.rimIn([0, 0, 9, 9], "cap");
+  assert.deepEqual([sent[1].box, sent[1].besides, sent[1].points], [[0, 0, 9, 9], "cap", []]);
+  answer(sent[1]);
+  assert.deepEqual(await rim, [0, 0, 9, 0, 0, 9]);
+  requests.forget();
+  assert.equal(requests.sees, false, "the line was broken: the server may be another");
 });

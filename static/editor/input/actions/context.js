@@ -13,6 +13,8 @@
  * @property {(name: string) => void} use  takes up a tool
  * @property {() => import("../../protocol.js").Point} pointer  where it is, image pixels
  * @property {(bounds: import("../../geometry/bounds.js").Bounds) => Promise<import("../../geometry/tightening.js").Patch>} patch  of the photo
+ * @property {(box: [number, number, number, number], besides: string) => Promise<number[] | null>} rimIn  where the network sees one
+ * @property {(shape: import("../../geometry/shapes.js").Shape) => import("../../protocol.js").Cap | null} suggested  the cap as it is offered to be
  * @property {() => void} drawPart  of the selected cap
  * @property {() => void} finish  closes the outline that is half drawn
  * @property {() => void} undo

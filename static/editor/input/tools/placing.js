@@ -30,6 +30,7 @@ export function place(state, whole) {
   const after = newShape(newId(), newCapOf(state, whole));
   state.commit([{ before: null, after }]);
   state.select([after.uid]);
+  state.signals.drawn.emit(after);
 }
 
 /** The selected cap, where this is its mark. @type {(state: EditorState, whole: Whole) => Shape | null} */

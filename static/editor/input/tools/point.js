@@ -12,6 +12,7 @@ import { newId } from "../../ids.js";
 import { CASING, COLOURS, FILLS } from "../../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../../render/paths.js";
 import { changed } from "../../state/changes.js";
+import { LOOK } from "../../sync/cap_requests.js";
 import { drawBand } from "./band.js";
 import { CLICK_PX, apart } from "./tool.js";
 
@@ -68,7 +69,7 @@ export class PointTool {
 
   /** The tool is taken up: the network looks at the photo before it is asked. */
   begin() {
-    void this.#ask({ points: [], wanted: [], box: null }, { keep: false });
+    void this.#ask(LOOK, { keep: false });
   }
 
   /** @type {(press: Press) => void} */

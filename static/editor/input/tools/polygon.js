@@ -154,6 +154,7 @@ export class PolygonTool {
     this.#state.commit([change]);
     this.#state.select([change.after.uid]);
     this.#state.signals.draft.emit(change.after);
+    this.#state.signals.drawn.emit(change.after);
     return true;
   }
 
