@@ -28,6 +28,8 @@ class Comparison(Struct, frozen=True, kw_only=True):
     extra: int
     cdr_mean: float | None = None
     """Mean CDR, percent (Eq. 10)."""
+    iou_mean: float | None = None
+    """Mean IoU of the visible outlines of the pairs."""
     floor_mean: float | None = None
     """Mean CDR that the marks of these caps have by themselves; None where it is not known."""
     cdr_worst: float | None = None

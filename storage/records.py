@@ -178,6 +178,32 @@ class Rules(Struct, frozen=True, kw_only=True, omit_defaults=True):
     """Whether somebody may approve what they have labelled themselves."""
 
 
+class SamplingPlan(Struct, frozen=True, kw_only=True):
+    """What a random sample is to show of the images that it was drawn from."""
+
+    lot: list[int]
+    """Those images."""
+    allowed: int
+    """How many of the sample may be wrong for all the others to be approved."""
+    tolerated: float
+    """Share of wrong images, 0 to 1, of which a lot is not to hold more."""
+    confidence: float
+    """With which such a lot is found out, 0 to 1."""
+
+
+class Queue(Struct, frozen=True, kw_only=True):
+    """The images that a reviewer goes through, in this order."""
+
+    number: int
+    user: str
+    title: str
+    images: list[int]
+    plan: SamplingPlan | None = None
+    """Where the images are a random sample."""
+    after_verdict: int = 0
+    """Number of the last verdict that had been given when the queue was made."""
+
+
 class Accepted(Struct, frozen=True, kw_only=True, tag="accepted", tag_field="outcome"):
     """The edit is on disk (now, or when it was first sent)."""
 

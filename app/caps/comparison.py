@@ -147,6 +147,7 @@ def _compared(
     dx, dy = summary.bias_px or (None, None)
     floors = [floor_of_mark(annotations[pair.truth], image) for pair in found.pairs if pair.error]
     known = [floor for floor in floors if floor is not None]
+    overlaps = [pair.iou for pair in found.pairs if pair.iou is not None]
     return Comparison(
         image=image.id,
         run=run_id,
@@ -157,6 +158,7 @@ def _compared(
         missed=len(found.missed),
         extra=len(found.extra),
         cdr_mean=summary.cdr.mean,
+        iou_mean=fmean(overlaps) if overlaps else None,
         floor_mean=fmean(known) if known else None,
         cdr_worst=worst[0] if worst else None,
         worst=worst[1] if worst else None,

@@ -17,6 +17,7 @@ from fairyring.app.gateway.login import name_of
 from fairyring.app.live.editing import Refits, apply_edits
 from fairyring.app.live.finding import Finding
 from fairyring.app.live.opening import open_image, reopen, step
+from fairyring.app.live.queues import take_up_queue
 from fairyring.app.live.recalling import recall
 from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
@@ -145,6 +146,7 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
     session.send(Welcome(user=session.user, project=workspace.project.id))
     if workspace.project.read_only:
         session.notify("This project is read-only; changes to it are refused.", "warning")
+    await take_up_queue(workspace, session)
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
     refits, finding = Refits(workspace, session), Finding(workspace, session)

@@ -69,7 +69,7 @@ async def apply_edits(workspace: Workspace, session: Session, message: Edits) ->
     session.refresh("cap", "status")
     session.follow("history")
     if message.statuses or message.verdicts:
-        workspace.follow("desk", "cap", "history")
+        workspace.follow("desk", "queue", "cap", "history")
 
 
 async def _say_working(session: Session) -> None:

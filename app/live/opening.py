@@ -15,10 +15,10 @@ from fairyring.app.protocol import Predicted, Show
 from fairyring.storage import images
 from fairyring.storage.contents import load_version
 from fairyring.storage.errors import StoreError
-from fairyring.storage.images import ImageFilter, ListPosition
+from fairyring.storage.images import ListPosition
 from fairyring.storage.records import Image, ImageContents
 
-CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "review")
+CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "queue", "review")
 """The parts of the panel that depend on the image on screen."""
 
 
@@ -34,18 +34,35 @@ async def open_image(
     workspace: Workspace, session: Session, image_id: int, *, select: str | None = None
 ) -> None:
     """Shows an image in a tab. Raises StoreError where the project has no such image."""
-    which, shown = session.filter, None
+    shown = None
     await find_outlines_of(workspace, image_id)
     # Until the tab shows the image it hears of no changes to it, so a look back follows.
     while shown is None or await workspace.read(lambda c: load_version(c, image_id)) != shown.version:
-        shown = await workspace.read(lambda c: _find(workspace, c, image_id, which))
+        shown = await workspace.read(lambda c: _find(workspace, c, image_id, session))
         _show(session, shown, select=select)
     session.refresh(*CHANGES_IMAGE)
     workspace.read_ahead([image.id for image in shown.near[:1]])
 
 
-def _find(workspace: Workspace, connection: Connection, image_id: int, which: ImageFilter) -> _Found:
-    position = images.position_in_list(connection, which, image_id)
+def position_of(connection: Connection, session: Session, image_id: int) -> ListPosition:
+    """Where an image stands for a tab: in the queue of its person, else in the list as filtered.
+
+    Raises StoreError where the project has no such image.
+    """
+    queue = session.queue
+    if image_id not in queue:
+        return images.position_in_list(connection, session.filter, image_id)
+    at = queue.index(image_id)
+    return ListPosition(
+        position=at,
+        count=len(queue),
+        previous=queue[at - 1] if at else None,
+        next=queue[at + 1] if at + 1 < len(queue) else None,
+    )
+
+
+def _find(workspace: Workspace, connection: Connection, image_id: int, session: Session) -> _Found:
+    position = position_of(connection, session, image_id)
     near = [images.get_image(connection, i) for i in (position.next, position.previous) if i is not None]
     version, contents = workspace.recent.load(connection, image_id)
     return _Found(contents, version, position, near)
@@ -91,13 +108,12 @@ async def step(workspace: Workspace, session: Session, by: Literal[-1, 1]) -> No
         await reopen(workspace, session, None)
         return
     here = session.image.id
-    position = await workspace.read(
-        lambda connection: images.position_in_list(connection, session.filter, here)
-    )
+    position = await workspace.read(lambda connection: position_of(connection, session, here))
     target = position.next if by == 1 else position.previous
     if target is None:
         session.notify(
-            "This is the last image of the list." if by == 1 else "This is the first image of the list."
+            f"This is the {'last' if by == 1 else 'first'} image of the "
+            f"{'queue' if here in session.queue else 'list'}."
         )
     else:
         await open_image(workspace, session, target)

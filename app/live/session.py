@@ -62,6 +62,8 @@ class Session:
     """The run whose predictions are on screen."""
     filter: ImageFilter = field(default_factory=ImageFilter)
     """The filter and order of the image list, which decide the next image."""
+    queue: tuple[int, ...] = ()
+    """The images that a reviewer goes through, which then decide the next image."""
     position: int = 0
     count: int = 0
     selection: Selection = field(default_factory=Selection)

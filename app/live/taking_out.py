@@ -27,6 +27,8 @@ async def take_out_shown(workspace: Workspace, session: Session) -> None:
     next_of = {tab.client.client_id: await _next_of(workspace, tab, image.id) for tab in workspace.tabs}
     await anyio.to_thread.run_sync(partial(take_out, workspace.project, [image.id], user=session.user))
     session.notify(f"{image.file_name} was taken out. Put back undoes it, until the project is closed.")
+    for tab in workspace.tabs:
+        tab.queue = tuple(number for number in tab.queue if number != image.id)
     for tab in workspace.tabs.others_on(image.id):
         tab.caps = None
         await reopen(workspace, tab, next_of[tab.client.client_id])
@@ -46,8 +48,10 @@ async def put_back_last(workspace: Workspace, session: Session) -> None:
 async def leave_missing(workspace: Workspace) -> None:
     """Leads tabs away from images that somebody has taken out by a command."""
     shown = {tab.image.id for tab in workspace.tabs if tab.image is not None}
-    gone = shown - set(await workspace.read(lambda connection: list_ids(connection, ImageFilter())))
+    there = set(await workspace.read(lambda connection: list_ids(connection, ImageFilter())))
+    gone = shown - there
     for tab in workspace.tabs:
+        tab.queue = tuple(number for number in tab.queue if number in there)
         if tab.image is not None and tab.image.id in gone:
             tab.notify(f"{tab.image.file_name} was taken out of the project.", "warning")
             tab.caps = None

@@ -94,7 +94,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         find = partial(_find, which=session.filter, here=here, wanted=wanted)
         at.page, page, position = await workspace.read(find)
         at.image = here
-        if position is not None:
+        if position is not None and here not in session.queue:
             session.position, session.count = position.position, position.count
         session.refresh("status")
         shown.content = image_list(page, at.page, here).html

@@ -13,11 +13,18 @@ from fairyring.app.panels import (
     layers,
     learning,
     predict,
+    queue,
     review,
     status,
     tools,
 )
 from fairyring.app.panels.callbacks import Redrawing
+
+ALL = (
+    *("status", "cap", "images", "history", "queue", "desk", "review"),
+    *("predict", "learning", "jobs"),
+)
+"""The parts that are drawn, in that order."""
 
 
 def build_panel(workspace: Workspace, session: Session) -> None:
@@ -35,6 +42,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("History"):
             parts["history"] = history.build(workspace, session)
         with pages.add_tab("Review"):
+            parts["queue"] = queue.build(workspace, session)
             parts["desk"] = desk.build(workspace, session)
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
@@ -44,4 +52,4 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         redrawing = Redrawing(parts)
         session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
         session.has_panel = True
-    session.refresh("status", "cap", "images", "history", "desk", "review", "predict", "learning", "jobs")
+    session.refresh(*ALL)

@@ -12,7 +12,7 @@ from typing import Any
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
 from fairyring.storage.db.columns import Flag, Json, Real
-from fairyring.storage.records import Cap, Mark, Outline, Rules, Shape
+from fairyring.storage.records import Cap, Mark, Outline, Rules, SamplingPlan, Shape
 
 metadata = MetaData(
     naming_convention={
@@ -205,6 +205,20 @@ verdict = Table(
     **NEVER_REUSED,
 )
 
+queue = Table(
+    "queue",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("user", Text, nullable=False, index=True),
+    Column("title", Text, nullable=False),
+    Column("images", Json(list[int]), nullable=False),
+    Column("plan", Json(SamplingPlan)),
+    Column("after_verdict", Integer, nullable=False),
+    Column("made_at", Text, nullable=False),
+    Column("ended_at", Text),
+    **NEVER_REUSED,
+)
+
 comparison = Table(
     "comparison",
     metadata,
@@ -217,6 +231,7 @@ comparison = Table(
     Column("missed", Integer, nullable=False),
     Column("extra", Integer, nullable=False),
     Column("cdr_mean", Real),
+    Column("iou_mean", Real),
     Column("floor_mean", Real),
     Column("cdr_worst", Real),
     Column("worst", Text),
