@@ -34,6 +34,7 @@ def header(session: Session, *, project: str, jobs: Sequence[Job]) -> Markup:
         "header",
         element("div", *_image_line(session), class_="fr-line"),
         element("div", *_person_line(session, project), class_="fr-line fr-quiet"),
+        element("div", *_work_line(session), class_="fr-line fr-quiet"),
         *(progress_line(job, own=job.may_be_cancelled_by(session.user)) for job in jobs),
         class_="fr-header",
     )
@@ -53,25 +54,30 @@ def _image_line(session: Session) -> list[Markup]:
 
 def _progress() -> Markup:
     """How many caps are checked and how long the rest may take: the editor writes it."""
-    return element("span", data_fairyring_progress="", class_="fr-progress", title="Caps checked")
+    return element("span", data_fairyring_progress="", class_="fr-progress fr-push", title="Caps checked")
 
 
 def _person_line(session: Session, project: str) -> list[Markup]:
+    return [
+        element("span", project, class_="fr-ellipsis", title="The project"),
+        element(
+            "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
+        ),
+    ]
+
+
+def _work_line(session: Session) -> list[Markup]:
     run = session.run
     waiting = f"{session.waiting} on their way" if session.waiting else None
     return [
-        element("span", project, class_="fr-ellipsis", title="The project"),
         run_badge(run) if run else element("span", "no predictions"),
-        _progress(),
         element(
             "span",
             waiting,
             class_="fr-badge fr-warn" if waiting else None,
             title="Edits not acknowledged yet",
         ),
-        element(
-            "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
-        ),
+        _progress(),
     ]
 
 

@@ -96,7 +96,8 @@ def test_nothing_of_the_panel_is_cut(browser: Browser, server: Server, width: in
     tab.select(CAPS[0])
     tab.page.locator(".fr-cap").get_by_text("Centre", exact=True).wait_for()
     tab.wait_for(f"document.querySelector('[data-dock-region=right]').offsetWidth < {width} * 0.32")
-    too_wide = """() => [...document.querySelectorAll('.fr-toolbar span, .fr-actions span, strong')]
+    words = ".fr-header :is(a, span), .fr-toolbar span, .fr-actions span, strong"
+    too_wide = f"""() => [...document.querySelectorAll('{words}')]
         .filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth).map((e) => e.textContent)"""
     assert tab.page.evaluate(too_wide) == []
     outside = """() => [...document.querySelectorAll('[data-dock-scroll] :is(button, input, select)')]

@@ -75,7 +75,7 @@ export function progressOf(shapes, left_ms) {
   if (all.length === 0) return "no caps";
   if (open === 0) return `all ${all.length} checked`;
   const minutes = left_ms / 60000;
-  const left = minutes < 1 ? "less than a minute" : `about ${Math.round(minutes)} min`;
+  const left = minutes < 1 ? "under a minute" : `about ${Math.round(minutes)} min`;
   return `${all.length - open} of ${all.length}, ${left}`;
 }
 

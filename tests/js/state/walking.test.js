@@ -57,7 +57,7 @@ test("the line says how many are done and how long the rest takes", () => {
   checkAndGoOn(state);
   checkAndGoOn(state);
   assert.equal(progressOf(state.items.all, 150000), "1 of 3, about 3 min");
-  assert.equal(progressOf(state.items.all, 9000), "1 of 3, less than a minute");
+  assert.equal(progressOf(state.items.all, 9000), "1 of 3, under a minute");
   assert.equal(progressOf([], 0), "no caps");
   assert.equal(progressOf(state.items.all.filter(({ checked }) => checked), 0), "all 1 checked");
 });
