@@ -277,6 +277,9 @@ class Fitted(FromServer, frozen=True, tag="fit"):
     """The visible outline cut up, in order; empty for a mark."""
     note: str = ""
     """How the fit came about, for the inspector; or why there is none."""
+    mark: Literal["circle", "polygon"] | None = None
+    """What to mark the cap with, by the paper's rule: a circle where it is regular, else its outline. None where
+    it is marked already, or cannot be fitted."""
 
 
 class JobProgress(FromServer, frozen=True, tag="progress"):

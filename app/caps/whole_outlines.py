@@ -9,6 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from typing import Literal
 
 import msgspec
 
@@ -60,7 +61,14 @@ def refit(caps: ImageCaps, request: Refit) -> Fitted:
         fit=found.fit,
         arcs=[Arc(kind=arc.kind, points=arc.points.round(2).ravel().tolist()) for arc in found.arcs],
         note=note_of(found),
+        mark=None if request.cap.mark is not None else _mark_for(found),
     )
+
+
+def _mark_for(found: Reconstruction) -> Literal["circle", "polygon"] | None:
+    if found.fit.whole is None:
+        return None
+    return "circle" if found.shape == "regular" or found.proposal == "circle" else "polygon"
 
 
 def note_on(caps: ImageCaps, uid: str) -> str:

@@ -61,5 +61,6 @@ def crew(*, apart: bool) -> Crew:
         fits=[Worker(f"fits-{number}", nice=A_LITTLE_NICE, apart=apart) for number in range(count)],
         patient=Worker("patient", nice=NICE, apart=apart),
         photos=Worker("photos", nice=NICE, apart=apart),
-        network=Worker("network", nice=A_LITTLE_NICE, apart=apart, patience_s=LOOKING_S),
+        # It looks at photos before anybody points, while somebody may have a cap in hand.
+        network=Worker("network", nice=NICE, apart=apart, patience_s=LOOKING_S),
     )

@@ -94,7 +94,7 @@ export default {
         { "name": "copy", "keys": ["Ctrl+C"], "words": "Copy the selected caps" },
         { "name": "paste", "keys": ["Ctrl+V"], "words": "Put them down at the pointer, on another photo at their places" },
         { "name": "paste_before", "keys": ["Shift+V"], "words": "Put down the caps of the photo shown before" },
-        { "name": "mark", "keys": ["M"], "words": "Take the outline as mark where there is none", "label": "Mark" },
+        { "name": "mark", "keys": ["M"], "words": "Mark what has no mark: as the line below says, else its outline", "label": "Mark" },
         { "name": "unmark", "keys": ["Shift+M"], "words": "Take the mark away", "label": "Unmark" },
         { "name": "convert", "keys": ["X"], "words": "Circle to polygon mark and back, same centre" },
         { "name": "doubtful", "keys": ["D"], "words": "Doubtful: a careful person could disagree", "label": "Doubtful" },

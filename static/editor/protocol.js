@@ -403,6 +403,7 @@
  * @property {Fit} fit
  * @property {Arc[]} arcs
  * @property {string} note
+ * @property {"circle" | "polygon" | null} mark
  */
 
 /**

@@ -15,11 +15,13 @@ from tests.support.said import said
 
 HIDDEN = ring(150, 150, 50, cut=130)
 """Its centre lies under its neighbour."""
+HALF_EATEN = [30, 260, 150, 260, 150, 360, 30, 360, 30, 330, 120, 310, 30, 290]
+"""No round cap looks like that."""
 
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    return make_bed(tmp_path, [[HIDDEN, ring(182, 150, 52), ring(400, 200, 60, count=8)]])
+    return make_bed(tmp_path, [[HIDDEN, ring(182, 150, 52), ring(400, 200, 60, count=8), HALF_EATEN]])
 
 
 @pytest.fixture
@@ -52,7 +54,7 @@ def test_a_circle_around_a_selected_cap_marks_it_though_its_centre_is_hidden(tab
     kept = kept_cap(project, uid)
     assert kept is not None
     assert kept["mark"]["r"] == pytest.approx(50, abs=1)
-    assert len(live_caps(project)) == 3
+    assert len(live_caps(project)) == 4
 
 
 def test_circles_over_buds_that_touch_are_a_cap_each(tab: Tab, project: Path) -> None:
@@ -76,10 +78,10 @@ def test_undo_while_a_circle_is_dragged_out_is_about_that_circle(tab: Tab, proje
     tab.page.mouse.move(*tab.screen((530, 330)), steps=4)
     tab.page.mouse.up()
     tab.saved()
-    assert len(live_caps(project)) == 4
+    assert len(live_caps(project)) == 5
     tab.press("Control+z")
     tab.saved()
-    assert len(live_caps(project)) == 3
+    assert len(live_caps(project)) == 4
 
 
 def test_m_gives_marks_and_only_shift_m_takes_them_away(tab: Tab) -> None:
@@ -89,10 +91,26 @@ def test_m_gives_marks_and_only_shift_m_takes_them_away(tab: Tab) -> None:
     tab.press("Escape", "v", "Control+a", "m", "m")
     tab.saved()
     kinds = sorted(shape["cap"]["mark"]["kind"] for shape in tab.state("shapes"))
-    assert kinds == ["circle", "polygon", "polygon"]
+    assert kinds == ["circle", "polygon", "polygon", "polygon"]
     tab.press("Shift+M")
     tab.saved()
-    assert [shape["cap"]["mark"] for shape in tab.state("shapes")] == [None] * 3
+    assert [shape["cap"]["mark"] for shape in tab.state("shapes")] == [None] * 4
+
+
+def test_m_marks_a_round_cap_with_a_circle_and_another_by_its_outline(tab: Tab, project: Path) -> None:
+    caption = tab.page.locator(".fairyring-caption")
+    for place, said_below, kind in (
+        ((205, 150), "M: mark a circle", "circle"),
+        ((135, 300), "M: mark the outline", "polygon"),
+    ):
+        uid = tab.select(place)
+        caption.filter(has_text=said_below).wait_for()
+        tab.press("m")
+        tab.saved()
+        kept = kept_cap(project, uid)
+        assert kept is not None
+        assert kept["mark"]["kind"] == kind
+        tab.press("Escape")
 
 
 def test_an_outline_that_runs_across_itself_is_told_of_and_keeps_its_points(tab: Tab, project: Path) -> None:

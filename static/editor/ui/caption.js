@@ -32,11 +32,15 @@ export function captionIn(host) {
   };
 }
 
-/** @type {(fitted: Pick<Fitted, "note" | "fit">) => string} */
-export function captionOf({ note, fit }) {
-  if (!fit.centre_sd) return note;
+/** What the key for marks does to the cap. */
+const MARKS = { circle: " · M: mark a circle", polygon: " · M: mark the outline" };
+
+/** @type {(fitted: Pick<Fitted, "note" | "fit" | "mark">) => string} */
+export function captionOf({ note, fit, mark }) {
+  const marks = mark ? MARKS[mark] : "";
+  if (!fit.centre_sd) return note + marks;
   const [sx, sy] = fit.centre_sd.map((sd) => sd.toFixed(2));
-  return `${note} · centre ± ${sx}, ${sy} px`;
+  return `${note} · centre ± ${sx}, ${sy} px${marks}`;
 }
 
 /** The name of a kind of arc after a piece of its line. @type {(kind: Arc["kind"]) => HTMLElement} */

@@ -12,7 +12,7 @@ const question = (x) => ({ image: 1, annotation: "u", cap: capOf(triangle(x)) })
 /** @type {(seq: number) => import("../../../static/editor/protocol.js").Fitted} */
 const fitted = (seq) => {
   const fit = { whole: null, centre: null, centre_sd: null, refusal: null };
-  return { type: "fit", seq, annotation: "u", fit, arcs: [], note: "" };
+  return { type: "fit", seq, annotation: "u", fit, arcs: [], note: "", mark: null };
 };
 
 /** Requests, and what they have sent: number and x. */

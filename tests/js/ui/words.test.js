@@ -35,8 +35,8 @@ const FIT = { whole: null, centre: null, centre_sd: null, refusal: null };
 
 test("the caption gives the reason and how well the centre is known", () => {
   const known = { ...FIT, centre_sd: /** @type {[number, number]} */ ([0.1234, 2]) };
-  assert.equal(captionOf({ note: "regular", fit: known }), "regular · centre ± 0.12, 2.00 px");
-  assert.equal(captionOf({ note: "the marked circle", fit: FIT }), "the marked circle");
+  assert.equal(captionOf({ note: "regular", fit: known, mark: "circle" }), "regular · centre ± 0.12, 2.00 px · M: mark a circle");
+  assert.equal(captionOf({ note: "the marked circle", fit: FIT, mark: null }), "the marked circle");
 });
 
 test("arcs of all kinds differ by dash alone", () => {

@@ -15,14 +15,19 @@ import { changeSelected } from "../../state/edits.js";
 const MARKED = "What is selected is marked already; Shift+M takes marks away.";
 
 /**
- * Gives a mark to those that have none; a mark that somebody placed is taken away by another key.
+ * Gives a mark to those that have none: the one that was suggested where a single cap is selected, else the outline. A
+ * mark that somebody placed is taken away by another key.
  *
  * @type {(context: Context) => void}
  */
 export function markSelected({ state, say }) {
-  const { selected } = state;
+  const { selected, explanation } = state;
+  const suggested = explanation?.mark;
   if (selected.length && selected.every(({ cap }) => cap.mark)) say(MARKED);
-  changeSelected(state, (cap) => (cap.mark ? null : { ...cap, mark: outlineAsMark(cap) }));
+  changeSelected(state, (cap, { whole }) => {
+    if (cap.mark) return null;
+    return { ...cap, mark: suggested === "circle" && whole ? circleOfWhole(whole) : outlineAsMark(cap) };
+  });
 }
 
 /** All on unless all are on already. @type {(state: EditorState, name: "doubtful" | "ignored") => void} */
