@@ -278,8 +278,8 @@ class Fitted(FromServer, frozen=True, tag="fit"):
     note: str = ""
     """How the fit came about, for the inspector; or why there is none."""
     mark: Literal["circle", "polygon"] | None = None
-    """What to mark the cap with, by the paper's rule: a circle where it is regular, else its outline. None where
-    it is marked already, or cannot be fitted."""
+    """What to mark the cap with, by the paper's rule: a circle where it is regular, else its outline. None
+    where it is marked already, or cannot be fitted."""
 
 
 class JobProgress(FromServer, frozen=True, tag="progress"):

@@ -19,6 +19,7 @@ const DRAWING = `
   state
   geometry
   protocol  commands  ids
+  messages
 `;
 const LINES = DRAWING.trim().split("\n");
 

@@ -13,7 +13,8 @@ from fairyring.app import protocol as messages
 from fairyring.model.geometry.shapes import Circle, Ellipse, Fit, Polygon
 from fairyring.storage import records
 
-SOURCE = (Path(__file__).parents[3] / "static" / "editor" / "protocol.js").read_text(encoding="utf-8")
+MESSAGES = Path(__file__).parents[3] / "static" / "editor" / "messages"
+SOURCE = "\n".join(file.read_text(encoding="utf-8") for file in sorted(MESSAGES.glob("*.js")))
 STRUCTS = (
     records.Image,
     records.Cap,
