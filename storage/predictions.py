@@ -76,27 +76,65 @@ def add_run(
     return run_of(connection.execute(insert(run).values(**values).returning(run)).one())
 
 
-def continued_run(
-    connection: Connection, *, name: str, weights: str | None, settings: dict[str, Any], redo: bool = False
-) -> Run:
-    """The run that predictions of a network, or a method without weights, go into: the latest, if it is of
-    these weights and settings.
+class RunAsked(Struct, frozen=True, kw_only=True):
+    """The run that predictions of a network, or of a method without weights, are to go into."""
 
-    Once another has been made since, or with ``redo``, a new one is entered: an image shows what the latest
-    run that saw it said.
+    name: str
+    """What a new one is called, with a number behind it where another has the name."""
+    weights: str | None
+    """SHA-256 of the weights; None where there are none."""
+    settings: dict[str, Any]
+    called: str | None = None
+    """What a person wants it to be called; None where nobody says."""
+    redo: bool = False
+    """Whether a new one is wanted in any case."""
+
+
+def run_to_continue(connection: Connection, asked: RunAsked) -> Run | None:
+    """The latest run, if it is of these weights and settings, and called as asked; None for a new one.
+
+    Once another has been made since, it is a new one: an image shows what the latest run that saw it said.
+    Raises StoreError where a new one cannot be called so: it is no name, or another run has it.
     """
-    latest = None if redo else latest_run(connection)
-    if latest is not None and latest.weights == weights and latest.settings == settings:
-        return latest
-    return add_run(connection, name=name, kind="network", weights=weights, settings=settings)
-
-
-def seen_by(connection: Connection, *, weights: str | None, settings: dict[str, Any]) -> set[int]:
-    """Ids of the images that the run of ``continued_run`` has seen."""
     latest = latest_run(connection)
-    if latest is None or latest.weights != weights or latest.settings != settings:
+    same = latest is not None and latest.weights == asked.weights and latest.settings == asked.settings
+    if latest is not None and same and asked.called in (None, latest.name):
+        if not asked.redo:
+            return latest
+        if asked.called is not None:
+            raise StoreError(
+                f"The latest run is called {asked.called}: without --redo it goes on; or choose another name."
+            )
+    if asked.called is not None:
+        require_free_name(connection, asked.called)
+    return None
+
+
+def continued_run(connection: Connection, asked: RunAsked) -> Run:
+    """The run of ``run_to_continue``, or a new one. Raises StoreError as that does."""
+    return run_to_continue(connection, asked) or add_run(
+        connection,
+        name=asked.called or asked.name,
+        kind="network",
+        weights=asked.weights,
+        settings=asked.settings,
+    )
+
+
+def seen_by(connection: Connection, asked: RunAsked) -> set[int]:
+    """Ids of the images that the run of ``run_to_continue`` has seen. Raises StoreError as that does."""
+    run = run_to_continue(connection, asked)
+    if run is None:
         return set()
-    return set(connection.execute(select(image.c.id).where(image.c.run == latest.id)).scalars())
+    return set(connection.execute(select(image.c.id).where(image.c.run == run.id)).scalars())
+
+
+def require_free_name(connection: Connection, name: str) -> None:
+    """Raises StoreError where this is no name of a run, or a run has it."""
+    check_name(name, "name of a run")
+    other = connection.execute(select(run.c.id).where(run.c.name == name)).first()
+    if other is not None:
+        raise StoreError(f"Run {other.id} is called {name} already; choose another name.")
 
 
 def count_unseen(connection: Connection, *, weights: str) -> int:

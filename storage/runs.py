@@ -62,6 +62,14 @@ def require_run(connection: Connection, said: str) -> Run:
     return run_of(row)
 
 
+def get_run(connection: Connection, number: int) -> Run:
+    """The run of this number. Raises StoreError where there is none."""
+    row = connection.execute(select(run).where(run.c.id == number)).first()
+    if row is None:
+        raise StoreError(f"The project has no run {number}.")
+    return run_of(row)
+
+
 def rename_run(connection: Connection, run_id: int, name: str) -> None:
     """Gives a run another name. Raises StoreError where another run has it, or it is no name."""
     check_name(name, "name of a run")

@@ -178,6 +178,9 @@ def predict(
     ] = None,
     fast: Fast = False,
     redo: Annotated[bool, typer.Option(help="Predict images anew that these weights have seen.")] = False,
+    name: Annotated[
+        str | None, typer.Option("--name", help="What the run is called; else after its weights.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Predict the caps of a project's photos, or of others, with their whole outlines and centres.
@@ -192,6 +195,8 @@ def predict(
     from fairyring.storage.project import open_project
 
     if out is not None:
+        if name is not None:
+            raise typer.BadParameter("--name is for the run of a project; --out writes a file.")
         _predict_photos(
             sources,
             out,
@@ -218,7 +223,13 @@ def predict(
         try:
             with shown_on_stderr() as shown, stopped_by_sigterm(shown) as progress:
                 outcome = predict_images(
-                    project, finder, wanted, redo=redo, progress=progress, predicted=stored.append
+                    project,
+                    finder,
+                    wanted,
+                    redo=redo,
+                    called=name,
+                    progress=progress,
+                    predicted=stored.append,
                 )
         except KeyboardInterrupt:
             typer.echo(f"Stopped; predicted and kept: {len(stored)}. The same command goes on.", err=True)
@@ -227,9 +238,9 @@ def predict(
         typer.echo(problem, err=True)
     if as_json:
         figures = {"images": outcome.images, "caps": outcome.caps, "known": outcome.known}
-        typer.echo(json.dumps(figures | {"problems": len(outcome.problems)}))
+        typer.echo(json.dumps(figures | {"problems": len(outcome.problems), "run": outcome.run}))
     else:
-        typer.echo(f"{finder.name}: {outcome}", err=True)
+        typer.echo(f"{outcome.run}: {outcome}", err=True)
 
 
 def _finder(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from uuid import uuid4
 from zipfile import ZIP_STORED, ZipFile
@@ -38,10 +38,17 @@ def export_work(project: Project, wanted: Wanted, *, run: Run = here) -> Callabl
             _zip(folder / "coco", packed, progress)
             packed.replace(made)
         _drop_old(exports)
-        message = " ".join([f"{report.images} images, {report.annotations} annotations.", *report.left_out])
+        said = f"{report.images} images, {report.annotations} annotations.{predictions_of(report.runs)}"
+        message = " ".join([said, *report.left_out])
         return Result(message, link=download_address(made.name))
 
     return work
+
+
+def predictions_of(runs: Mapping[str, int]) -> str:
+    """Of which runs predictions were written, as a sentence after another; nothing where none were."""
+    listed = ", ".join(f"{name} ({seen} image{'' if seen == 1 else 's'})" for name, seen in runs.items())
+    return f" Predictions of {listed}." if runs else ""
 
 
 def _zip(folder: Path, made: Path, progress: Progress) -> None:

@@ -33,9 +33,17 @@ from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.predict.scale import detect_at_its_scale
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.images import get_image, keep_statistics
-from fairyring.storage.predictions import NewPrediction, add_predictions, continued_run, seen_by
+from fairyring.storage.predictions import (
+    NewPrediction,
+    RunAsked,
+    add_predictions,
+    continued_run,
+    run_to_continue,
+    seen_by,
+)
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
+from fairyring.storage.records import Run as StoredRun
 
 LEAST_SCORE = 0.3
 """Predictions with a lower score are not stored: people would have to delete most of them one by one."""
@@ -114,6 +122,8 @@ class Network:
 class Outcome:
     """What became of the images that were to be predicted."""
 
+    run: str
+    """Name of the run that they went into."""
     images: int = 0
     """How many were predicted now."""
     caps: int = 0
@@ -179,6 +189,7 @@ def predict_images(
     image_ids: Sequence[int],
     *,
     redo: bool = False,
+    called: str | None = None,
     compute: Run = here,
     progress: Progress = silent,
     predicted: Callable[[int], None] = lambda _: None,
@@ -187,14 +198,19 @@ def predict_images(
 
     The finder works in this process, the caps it saw are fitted by ``compute``.
     Images that show what this finder saw are passed over, unless ``redo``; so the same call again goes on
-    where one was stopped. A photo that cannot be read is told of and passed over. Raises FairyringError where
-    that is so of every one, and whatever ``progress`` raises.
+    where one was stopped. ``called`` is what the run is to be called. A photo that cannot be read is told of
+    and passed over. Raises FairyringError where that is so of every one, or another run is called so, and
+    whatever ``progress`` raises.
     """
+    asked = RunAsked(
+        name=finder.name, weights=finder.digest, settings=finder.settings, called=called, redo=redo
+    )
     with project.read() as connection:
-        seen = set() if redo else seen_by(connection, weights=finder.digest, settings=finder.settings)
+        going_on, seen = run_to_continue(connection, asked), seen_by(connection, asked)
         images = [get_image(connection, image_id) for image_id in image_ids if image_id not in seen]
-    outcome = Outcome(known=len(image_ids) - len(images))
-    run = _Run(finder, redo)
+    name = going_on.name if going_on else called or finder.name
+    outcome = Outcome(run=name, known=len(image_ids) - len(images))
+    run = _Run(asked)
     for done, image in enumerate(images):
         progress(done, len(images), f"Predicting {image.file_name}")
         began = time.monotonic()
@@ -205,7 +221,9 @@ def predict_images(
         except FairyringError as error:
             outcome.problems.append(str(error))
             continue
-        project.write(partial(run.store, image_id=image.id, new=new, statistics=statistics))
+        outcome.run = project.write(
+            partial(run.store, image_id=image.id, new=new, statistics=statistics)
+        ).name
         note_pace(project, time.monotonic() - began)
         outcome.images += 1
         outcome.caps += len(new)
@@ -223,9 +241,9 @@ def leave_a_core() -> None:
 class _Run:
     """The run that predictions go into; stored with the first of them."""
 
-    def __init__(self, finder: Finder, redo: bool) -> None:
-        self._finder, self._redo = finder, redo
-        self._id: int | None = None
+    def __init__(self, asked: RunAsked) -> None:
+        self._asked = asked
+        self._run: StoredRun | None = None
 
     def store(
         self,
@@ -234,16 +252,13 @@ class _Run:
         image_id: int,
         new: Sequence[NewPrediction],
         statistics: Mapping[str, float],
-    ) -> None:
-        """Stores an image's predictions; to be called within ``Project.write``."""
-        if self._id is None:
-            of = self._finder
-            run = continued_run(
-                connection, name=of.name, weights=of.digest, settings=of.settings, redo=self._redo
-            )
-            self._id = run.id
-        add_predictions(connection, run_id=self._id, image_id=image_id, predictions=new)
+    ) -> StoredRun:
+        """Stores an image's predictions; to be called within ``Project.write``. Returns the run."""
+        if self._run is None:
+            self._run = continued_run(connection, self._asked)
+        add_predictions(connection, run_id=self._run.id, image_id=image_id, predictions=new)
         keep_statistics(connection, image_id, statistics)
+        return self._run
 
 
 def predictions_in(

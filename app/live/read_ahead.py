@@ -10,6 +10,7 @@ from sqlalchemy import Connection
 from fairyring.storage.contents import load_contents, load_version
 from fairyring.storage.images import get_image
 from fairyring.storage.records import ImageContents
+from fairyring.storage.runs import get_run
 
 MOST_KEPT = 16
 
@@ -28,8 +29,10 @@ class RecentImages:
         version = load_version(connection, image_id)
         kept = self._kept.get(image_id)
         if kept is not None and kept[0] == version:
-            # A change of status does not count as a new version.
-            return version, msgspec.structs.replace(kept[1], image=get_image(connection, image_id))
+            # A change of status, or of a run's name, does not count as a new version.
+            run = None if kept[1].run is None else get_run(connection, kept[1].run.id)
+            image = get_image(connection, image_id)
+            return version, msgspec.structs.replace(kept[1], image=image, run=run)
         contents = load_contents(connection, image_id)
         self._kept[image_id] = (version, contents)
         self._kept.move_to_end(image_id)

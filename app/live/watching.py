@@ -56,7 +56,7 @@ async def catch_up(workspace: Workspace) -> None:
     for tab in workspace.tabs:
         if tab.image is None and tab.outbox is not None:
             await reopen(workspace, tab, None)
-    workspace.refresh(*CHANGES_IMAGE, "predict")
+    workspace.refresh(*CHANGES_IMAGE, "predict", "runs")
     await find_other_outlines(workspace)
 
 

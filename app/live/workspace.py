@@ -77,7 +77,7 @@ class Workspace:
         self.refresh("status", "jobs")
 
     def _show_end(self) -> None:
-        self.refresh("status", "jobs", "predict", "learning", "review", "images")
+        self.refresh("status", "jobs", "predict", "runs", "learning", "review", "images")
 
     def read_ahead(self, image_ids: Sequence[int]) -> None:
         """Loads images that somebody is likely to open next, in the background."""

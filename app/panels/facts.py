@@ -9,13 +9,18 @@ from fairyring.app.panels.markup import Content, Markup, element
 Facts = list[tuple[str, Content]]
 
 
+def definitions(facts: Facts, *, class_: str | None = None) -> Markup:
+    """Terms with what is to be said of them."""
+    rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
+    return element("dl", *rows, class_=class_)
+
+
 def card(*title: Markup, facts: Facts, commands: tuple[str, ...] = (), below: Markup | None = None) -> Markup:
     """A title, terms with what is to be said of them, something ``below``, and buttons."""
-    rows = [part for term, fact in facts for part in (element("dt", term), element("dd", fact))]
     return element(
         "section",
         element("div", *title, class_="fr-line"),
-        element("div", element("dl", *rows), below, class_="fr-facts", tabindex=0),
+        element("div", definitions(facts), below, class_="fr-facts", tabindex=0),
         element("div", *map(labelled_button, commands), class_="fr-actions") if commands else None,
         class_="fr-cap",
         aria_label="Selected cap",

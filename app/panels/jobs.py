@@ -21,7 +21,7 @@ EXPORTS: dict[str, Only] = {
     "Approved images": Only.approved,
     "Annotated images": Only.annotated,
     "Annotations, else predictions": Only.all,
-    "Predictions of the latest run": Only.predicted,
+    "Predictions, latest of each image": Only.predicted,
 }
 
 

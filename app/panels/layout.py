@@ -15,6 +15,7 @@ from fairyring.app.panels import (
     predict,
     queue,
     review,
+    runs,
     status,
     tools,
 )
@@ -22,7 +23,7 @@ from fairyring.app.panels.callbacks import Redrawing
 
 ALL = (
     *("status", "cap", "images", "history", "queue", "desk", "review"),
-    *("predict", "learning", "jobs"),
+    *("predict", "runs", "learning", "jobs"),
 )
 """The parts that are drawn, in that order."""
 
@@ -47,6 +48,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)
+            parts["runs"] = runs.build(workspace, session)
             parts["learning"] = learning.build(workspace, session)
             parts["jobs"] = jobs.build(workspace, session)
         redrawing = Redrawing(parts)

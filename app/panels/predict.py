@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypedDict
 
 import anyio.to_thread
 
@@ -29,22 +30,36 @@ EVERY = "Predict every image"
 WIDTH_HINT = "How wide most caps are in the photos. 0: measured in each photo."
 
 
+NAME_HINT = "Else it is called after its weights, or goes on with the run before."
+
+
+class Said(TypedDict):
+    """What a person says of a prediction."""
+
+    diameter: float | None
+    called: str | None
+
+
 def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the line that names the weights, and the two buttons."""
     gui = session.client.gui
     shown = gui.add_html("")
     width = gui.add_number("Cap width, px", 0, min=0, max=5000, step=1, hint=WIDTH_HINT)
+    name = gui.add_text("Name of the run", "", hint=NAME_HINT)
     one = gui.add_button("Predict this image")
     every = gui.add_button(EVERY)
+
+    def said() -> Said:
+        return {"diameter": float(width.value) or None, "called": name.value.strip() or None}
 
     async def predict_shown() -> None:
         if session.image is not None:
             title = f"Prediction of {session.image.file_name}"
-            start(workspace, session, title, [session.image.id], diameter=float(width.value) or None)
+            start(workspace, session, title, [session.image.id], **said())
 
     async def predict_every() -> None:
         ids = await workspace.read(lambda connection: list_ids(connection, ImageFilter()))
-        start(workspace, session, "Prediction of every image", ids, diameter=float(width.value) or None)
+        start(workspace, session, "Prediction of every image", ids, **said())
 
     one.on_click(person_did(session, predict_shown))
     every.on_click(person_did(session, predict_every))
@@ -83,11 +98,17 @@ def words_for_every(count: int, seconds: float | None) -> str:
 async def predict_one(workspace: Workspace, session: Session, image_id: int) -> None:
     """Has the network look at an image, as the button on an empty one asks. Raises StoreError without it."""
     image = await workspace.read(lambda connection: get_image(connection, image_id))
-    start(workspace, session, f"Prediction of {image.file_name}", [image.id], diameter=None)
+    start(workspace, session, f"Prediction of {image.file_name}", [image.id])
 
 
 def start(
-    workspace: Workspace, session: Session, title: str, image_ids: Sequence[int], *, diameter: float | None
+    workspace: Workspace,
+    session: Session,
+    title: str,
+    image_ids: Sequence[int],
+    *,
+    diameter: float | None = None,
+    called: str | None = None,
 ) -> None:
     """Starts the job that predicts images, each drawn as soon as it is stored."""
     loop = asyncio.get_running_loop()
@@ -100,6 +121,7 @@ def start(
         workspace.project,
         image_ids,
         diameter=diameter,
+        called=called,
         compute=workspace.crew.patient.run,
         predicted=predicted,
     )
@@ -123,6 +145,7 @@ def predict_work(
     image_ids: Sequence[int],
     *,
     diameter: float | None = None,
+    called: str | None = None,
     compute: Run,
     predicted: Callable[[int], None],
 ) -> Callable[[Progress], Result]:
@@ -139,8 +162,14 @@ def predict_work(
         leave_a_core()
         network = network_of(require_weights(project), diameter=diameter)
         outcome = predict_images(
-            project, network, image_ids, compute=compute, progress=progress, predicted=predicted
+            project,
+            network,
+            image_ids,
+            called=called,
+            compute=compute,
+            progress=progress,
+            predicted=predicted,
         )
-        return Result(f"{network.name}: {outcome}")
+        return Result(f"{outcome.run}: {outcome}")
 
     return work

@@ -16,6 +16,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import (
     NewPrediction,
+    RunAsked,
     add_predictions,
     add_run,
     continued_run,
@@ -144,7 +145,7 @@ def continued(project, *, image=None, **keys):
     of = {"name": "n", "weights": "abc", "settings": {"least": 0.3}} | keys
 
     def work(connection):
-        run = continued_run(connection, **of)
+        run = continued_run(connection, RunAsked(**of))
         if image is not None:
             add_predictions(connection, run_id=run.id, image_id=image, predictions=[])
         return run
@@ -154,7 +155,7 @@ def continued(project, *, image=None, **keys):
 
 def seen(project, *, weights="abc", least=0.3):
     with project.read() as connection:
-        return seen_by(connection, weights=weights, settings={"least": least})
+        return seen_by(connection, RunAsked(name="n", weights=weights, settings={"least": least}))
 
 
 def test_a_run_of_the_same_weights_and_settings_goes_on_until_another_is_made(beds, square):
@@ -169,6 +170,25 @@ def test_a_run_of_the_same_weights_and_settings_goes_on_until_another_is_made(be
     assert again.id > first.id
     assert seen(beds) == {1}
     assert len({again.id, continued(beds, redo=True).id, continued(beds, settings={}).id}) == 3
+
+
+def test_a_run_is_called_as_asked_and_goes_on_under_that_name_alone(beds):
+    unnamed = continued(beds, image=1)
+    named = continued(beds, image=1, called="new lamps")
+    assert (named.name, named.id > unnamed.id) == ("new lamps", True)
+    assert continued(beds, called="new lamps").id == named.id
+    assert continued(beds).id == named.id
+    other = continued(beds, called="newer lamps")
+    assert other.id > named.id
+    for keys, reason in (
+        ({"called": "new lamps"}, "is called new lamps already"),
+        ({"called": "newer lamps", "redo": True}, "without --redo it goes on"),
+        ({"called": "newer lamps", "weights": "other"}, "is called newer lamps already"),
+        ({"called": ""}, "printable characters"),
+        ({"called": "two\nlines"}, "printable characters"),
+    ):
+        with pytest.raises(StoreError, match=reason):
+            continued(beds, **keys)
 
 
 def test_a_cap_without_a_whole_outline_keeps_the_reason(beds, square):

@@ -71,6 +71,7 @@ def test_predict_stores_outlines_scores_and_centres_with_the_weights_that_said_s
         "caps": sum(len(contents.predictions) for contents in every),
         "known": 0,
         "problems": 0,
+        "run": network.name,
     }
     for contents in every:
         assert contents.run is not None

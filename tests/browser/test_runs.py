@@ -1,0 +1,94 @@
+"""The runs of a project in the panel: seen, renamed, compared, exported, and named when they are made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from fairyring.app.bench.browser.tab import Tab
+from fairyring.app.bench.serving import Server, served
+from fairyring.model.geometry.shapes import Circle, fit_of_shape
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.journal import Derived, commit
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
+from fairyring.storage.project import create_project
+from fairyring.storage.records import Cap, Edit
+from tests.support.sighted import write_weights
+from tests.unit.storage.conftest import write_noise
+
+SQUARE = [60.0, 60.0, 120.0, 60.0, 120.0, 120.0, 60.0, 120.0]
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A photo with one marked cap at (90, 90), which two runs saw at 94 and at 92."""
+    photo = write_noise(tmp_path / "bed.png", width=320, height=240)
+    with create_project(tmp_path / "beds") as made:
+        import_paths(made, [photo])
+        cap = Cap(visible=[SQUARE], mark=Circle(90, 90, 30))
+        edit = Edit(id="e", annotation="a", image=1, base=0, cap=cap)
+        commit(made, [Derived(edit=edit, fit=fit_of_shape(Circle(90, 90, 30)))], user="ann")
+        for name, x in (("old", 94.0), ("new", 92.0)):
+
+            def predict(connection, name=name, x=x):
+                run = add_run(connection, name=name, kind="network", weights="ab" * 32)
+                said = NewPrediction(visible=[SQUARE], score=0.75, fit=fit_of_shape(Circle(x, 90, 30)))
+                add_predictions(connection, run_id=run.id, image_id=1, predictions=[said])
+
+            made.write(predict)
+    write_weights(tmp_path / "beds" / "weights" / "own.safetensors")
+    return tmp_path / "beds"
+
+
+@pytest.fixture
+def server(project: Path) -> Iterator[Server]:
+    with served(project) as running:
+        yield running
+
+
+@pytest.fixture
+def tab(server: Server, open_tab: Callable[..., Tab]) -> Tab:
+    """The tab Jobs, with the runs unfolded."""
+    opened = open_tab(server)
+    opened.page.get_by_role("tab", name="Jobs").click()
+    opened.page.get_by_text("Runs", exact=True).click()
+    opened.page.locator(".fr-runs").get_by_text("new").wait_for()
+    return opened
+
+
+def test_a_run_is_shown_and_gets_another_name_in_list_and_head(tab: Tab) -> None:
+    tab.page.locator(".fr-run").get_by_text("abababababab").wait_for()
+    tab.page.get_by_label("Another name").fill("after the new lamps")
+    tab.page.get_by_role("button", name="Rename this run").click()
+    tab.page.locator(".fr-runs").get_by_text("after the new lamps").wait_for()
+    tab.page.get_by_text("predicted by after the new lamps").wait_for()
+    tab.page.reload()
+    tab.page.get_by_text("predicted by after the new lamps").wait_for()
+
+
+def test_two_runs_are_compared_with_what_people_marked(tab: Tab) -> None:
+    tab.page.get_by_role("combobox", name="Compare with").click()
+    tab.page.get_by_role("option", name="old").last.click()
+    tab.page.get_by_role("button", name="Compare the two").click()
+    told = tab.page.get_by_text("On 1 image.").first.inner_text()
+    assert "new: mean CDR" in told
+    assert "2.00 px; 1 found, 0 missed, 0 extra." in told
+    assert "4.00 px; 1 found, 0 missed, 0 extra." in told
+    assert "new is nearer in 1, old in 0" in told
+
+
+def test_a_run_that_later_ones_hide_is_exported(tab: Tab) -> None:
+    tab.page.get_by_role("combobox", name="Run", exact=True).click()
+    tab.page.get_by_role("option", name="old").first.click()
+    tab.page.locator(".fr-run").get_by_text("1", exact=True).wait_for()
+    tab.page.get_by_role("button", name="Export this run").click()
+    tab.page.get_by_text("Predictions of old (1 image).").first.wait_for()
+
+
+def test_a_prediction_is_called_as_somebody_says(tab: Tab) -> None:
+    tab.page.get_by_label("Name of the run").fill("by the window")
+    tab.page.get_by_role("button", name="Predict this image").last.click()
+    tab.page.get_by_text("predicted by by the window").wait_for()
+    tab.page.locator(".fr-runs").get_by_text("by the window").wait_for()
