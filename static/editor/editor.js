@@ -7,7 +7,7 @@
 import { isPrediction } from "./geometry/shapes.js";
 import { Fingers } from "./input/fingers.js";
 import { tightened } from "./input/actions/tightening.js";
-import { bringFocusBack } from "./input/focus.js";
+import { bringFocusBack, keepFocusInPanel } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { RimSuggestion } from "./input/rim_suggestion.js";
@@ -225,6 +225,7 @@ export class Editor {
     nameFields();
     takePhotos(host, this.#say);
     bringFocusBack(host);
+    keepFocusInPanel();
     showProgress(state);
     keepPlace(state, (image, cap) => this.#open(image, cap));
     state.signals.selection.listen(() => this.#tellSelection());
