@@ -10,6 +10,7 @@ from typing import Literal
 from msgspec import Struct, field
 
 from fairyring.model.geometry.shapes import Fit
+from fairyring.storage.compared_caps import Kind
 from fairyring.storage.image_history import Reversal, Way
 from fairyring.storage.records import (
     Annotation,
@@ -90,6 +91,12 @@ class Compare(FromEditor, frozen=True, tag="compare"):
     image: int
 
 
+class ShowCaps(FromEditor, frozen=True, tag="show_caps"):
+    """Asks the panel for caps of all images: the worst, or those that a number counts."""
+
+    kind: Kind
+
+
 class Select(FromEditor, frozen=True, tag="select"):
     """Says what is selected, for the inspector."""
 
@@ -157,6 +164,7 @@ Incoming = (
     | Cancel
     | FindCap
     | Compare
+    | ShowCaps
 )
 
 

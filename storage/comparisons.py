@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from msgspec import Struct, structs
 from sqlalchemy import ColumnElement, Connection, delete, func, insert, select
 
+from fairyring.storage.compared_caps import CapFigures, store_caps
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.schema import comparison, image
 
@@ -58,8 +60,9 @@ class ComparisonPage(Struct, frozen=True, kw_only=True):
     total: int
 
 
-def store_comparison(connection: Connection, figures: Comparison) -> None:
-    """Stores the figures of an image and a run, in place of older ones."""
+def store_comparison(connection: Connection, figures: Comparison, *, caps: Sequence[CapFigures] = ()) -> None:
+    """Stores the figures of an image and a run, and of its caps, in place of older ones."""
+    store_caps(connection, figures.image, figures.run, caps)
     connection.execute(
         delete(comparison).where(comparison.c.image == figures.image, comparison.c.run == figures.run)
     )

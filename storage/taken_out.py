@@ -34,6 +34,7 @@ TABLES: tuple[Table, ...] = (
     schema.status_change,
     schema.verdict,
     schema.comparison,
+    schema.compared_cap,
 )
 """Those that hold something of an image, in the order in which rows refer to others."""
 

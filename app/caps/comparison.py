@@ -17,10 +17,11 @@ import anyio.to_thread
 
 from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.caps.image_caps import ImageCaps
-from fairyring.app.caps.records import floor_of_mark, prediction_record, truth_record
+from fairyring.app.caps.records import floor_of_mark, is_unsure, prediction_record, truth_record
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.evaluate import centres
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
+from fairyring.storage.compared_caps import CapFigures
 from fairyring.storage.comparisons import Comparison, store_comparison
 from fairyring.storage.contents import load_annotations, load_latest_run, load_predictions, load_version
 from fairyring.storage.images import get_image
@@ -79,8 +80,8 @@ def compare_image(project: Project, image_id: int, *, run: Run = here) -> Compar
         predictions = load_predictions(connection, image_id)
     if latest is None:
         return None
-    figures = run(_compared, latest.id, version, image, annotations, predictions)
-    project.write(lambda connection: store_comparison(connection, figures))
+    figures, caps = run(_compared, latest.id, version, image, annotations, predictions)
+    project.write(lambda connection: store_comparison(connection, figures, caps=caps))
     return figures
 
 
@@ -137,7 +138,7 @@ def _compared(
     image: Image,
     annotations: Sequence[Annotation],
     predictions: Sequence[Prediction],
-) -> Comparison:
+) -> tuple[Comparison, list[CapFigures]]:
     found = compare(image, annotations, predictions)
     summary = centres.summarise(found.errors)
     real = [annotation for annotation in annotations if not annotation.cap.ignored]
@@ -148,7 +149,7 @@ def _compared(
     floors = [floor_of_mark(annotations[pair.truth], image) for pair in found.pairs if pair.error]
     known = [floor for floor in floors if floor is not None]
     overlaps = [pair.iou for pair in found.pairs if pair.iou is not None]
-    return Comparison(
+    figures = Comparison(
         image=image.id,
         run=run_id,
         version=version,
@@ -167,3 +168,33 @@ def _compared(
         dx=dx,
         dy=dy,
     )
+    return figures, _figures_of_caps(image, run_id, annotations, predictions, found)
+
+
+def _figures_of_caps(
+    image: Image,
+    run_id: int,
+    annotations: Sequence[Annotation],
+    predictions: Sequence[Prediction],
+    found: centres.Comparison,
+) -> list[CapFigures]:
+    """Of every cap that counts, and of every prediction that nobody drew."""
+    partners: list[tuple[Annotation | None, Prediction | None, centres.Pair | None]] = [
+        *((annotations[pair.truth], predictions[pair.prediction], pair) for pair in found.pairs),
+        *((annotations[number], None, None) for number in found.missed),
+        *((None, predictions[number], None) for number in found.extra),
+    ]
+    return [
+        CapFigures(
+            image=image.id,
+            run=run_id,
+            annotation=said.uid if said else None,
+            prediction=guessed.id if guessed else None,
+            iou=pair.iou if pair else None,
+            cdr=pair.error.cdr if pair and pair.error else None,
+            floor=floor_of_mark(said, image) if said else None,
+            doubtful=said is not None and said.cap.doubtful,
+            unsure=said is not None and is_unsure(said),
+        )
+        for said, guessed, pair in partners
+    ]

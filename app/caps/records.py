@@ -10,6 +10,9 @@ from fairyring.model.geometry.shapes import area_of_outline, diameter_of_shape, 
 from fairyring.storage.open_predictions import covered_by
 from fairyring.storage.records import Annotation, Image, Prediction, Shape
 
+UNSURE = 0.05
+"""A mark whose centre is off by more than this share of the cap's diameter is an unsure one."""
+
 
 def truth_record(annotation: Annotation, image: Image) -> CapRecord:
     """An annotation; it has a centre only where somebody marked it."""
@@ -37,6 +40,12 @@ def sd_of_mark(annotation: Annotation) -> tuple[float, float] | None:
     if mark is None or annotation.centre_sd is not None:
         return annotation.centre_sd if mark is not None else None
     return reconstruction_of_mark(mark).fit.centre_sd
+
+
+def is_unsure(annotation: Annotation) -> bool:
+    """Whether somebody marked a cap in such a way that its centre is hardly determined."""
+    sd, whole = sd_of_mark(annotation), annotation.whole
+    return sd is not None and whole is not None and max(sd) > UNSURE * diameter_of_shape(whole)
 
 
 def floor_of_mark(annotation: Annotation, image: Image) -> float | None:

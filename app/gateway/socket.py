@@ -47,6 +47,7 @@ from fairyring.app.protocol import (
     Saving,
     Select,
     Show,
+    ShowCaps,
     Step,
     Tag,
     Welcome,
@@ -197,19 +198,22 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
         case Saving(waiting=waiting):
             session.waiting = waiting
             session.refresh("status")
-        case Window() | Tag() | Predict() | Cancel() | Compare():
+        case Window() | Tag() | Predict() | Cancel() | Compare() | ShowCaps():
             await _carry_out_for_panel(workspace, session, message)
         case Hello():
             session.notify("This tab has said hello before.", "warning")
 
 
 async def _carry_out_for_panel(
-    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel | Compare
+    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel | Compare | ShowCaps
 ) -> None:
     """Carries out what the panel's own HTML asks for by way of the editor, and what reviewers ask."""
     match message:
         case Compare(image=image):
             await tell_differences(workspace, session, image)
+        case ShowCaps(kind=kind):
+            session.gallery = kind
+            session.refresh("gallery")
         case Window():
             follow_window(session, message)
         case Tag():

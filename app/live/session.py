@@ -18,6 +18,7 @@ import viser
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import FromServer, Notice
+from fairyring.storage.compared_caps import Kind
 from fairyring.storage.images import ImageFilter
 from fairyring.storage.records import Annotation, Image, ImageContents, Run
 
@@ -62,6 +63,8 @@ class Session:
     """The run whose predictions are on screen."""
     filter: ImageFilter = field(default_factory=ImageFilter)
     """The filter and order of the image list, which decide the next image."""
+    gallery: Kind = "worst"
+    """Which caps of all images the review shows."""
     queue: tuple[int, ...] = ()
     """The images that a reviewer goes through, which then decide the next image."""
     position: int = 0

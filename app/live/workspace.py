@@ -43,7 +43,7 @@ class Workspace:
         """Compares images with their predictions after edits."""
         return Reviewer(
             self.project,
-            compared=lambda _image: self.follow("review", "images"),
+            compared=lambda _image: self.follow("review", "gallery", "images"),
             run=self.crew.patient.run,
         )
 
@@ -77,7 +77,7 @@ class Workspace:
         self.refresh("status", "jobs")
 
     def _show_end(self) -> None:
-        self.refresh("status", "jobs", "predict", "runs", "learning", "review", "images")
+        self.refresh("status", "jobs", "predict", "runs", "learning", "review", "gallery", "images")
 
     def read_ahead(self, image_ids: Sequence[int]) -> None:
         """Loads images that somebody is likely to open next, in the background."""

@@ -6,6 +6,7 @@ from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import (
     desk,
+    gallery,
     history,
     images,
     inspector,
@@ -22,7 +23,7 @@ from fairyring.app.panels import (
 from fairyring.app.panels.callbacks import Redrawing
 
 ALL = (
-    *("status", "cap", "images", "history", "queue", "desk", "review"),
+    *("status", "cap", "images", "history", "queue", "desk", "gallery", "review"),
     *("predict", "runs", "learning", "jobs"),
 )
 """The parts that are drawn, in that order."""
@@ -45,6 +46,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("Review"):
             parts["queue"] = queue.build(workspace, session)
             parts["desk"] = desk.build(workspace, session)
+            parts["gallery"] = gallery.build(workspace, session)
             parts["review"] = review.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)

@@ -13,6 +13,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import run_badge
+from fairyring.storage.compared_caps import Kind
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
@@ -135,8 +136,8 @@ def _totals(rows: list[ComparisonRow]) -> Markup:
         ("floor of marks", "–" if floor is None else f"{floor:.3f} %"),
         ("marked", sum(f.marked for f in figures)),
         ("matched", sum(f.matched for f in figures)),
-        ("missed", sum(f.missed for f in figures)),
-        ("extra", sum(f.extra for f in figures)),
+        ("missed", _counted("missed", sum(f.missed for f in figures))),
+        ("extra", _counted("extra", sum(f.extra for f in figures))),
     )
     return element(
         "dl",
@@ -144,6 +145,11 @@ def _totals(rows: list[ComparisonRow]) -> Markup:
         class_="fr-totals",
         title=ABOUT_FLOOR,
     )
+
+
+def _counted(kind: Kind, count: int) -> Markup:
+    """A number that leads to what it counts."""
+    return element("button", count, type="button", class_="fr-counted", data_fairyring_gallery=kind)
 
 
 def _weighted(figures: list[tuple[float | None, int]]) -> float | None:

@@ -14,7 +14,7 @@ import numpy as np
 from msgspec import structs, to_builtins
 
 from fairyring.app.caps.filling_in import fill_in
-from fairyring.app.caps.records import floor_of_mark, sd_of_mark
+from fairyring.app.caps.records import floor_of_mark, is_unsure
 from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
 from fairyring.model.evaluate.cap_rows import Measured, measured_caps
 from fairyring.model.evaluate.centre_figures import figures_of_caps, grouped
@@ -24,8 +24,6 @@ from fairyring.model.progress import Progress, silent
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
 
-UNSURE = 0.05
-"""A mark whose centre is off by more than this share of the cap's diameter is an unsure one."""
 MOST_WORST = 24
 """How many of the worst caps are listed."""
 
@@ -131,13 +129,12 @@ def _reviewed(seen: ReviewedImage, measured: Measured) -> ReviewedCap:
     if measured.truth is None:
         return ReviewedCap(measured=measured, image=seen.image.id)
     annotation, image = seen.annotations[measured.truth], seen.image
-    sd, diameter = sd_of_mark(annotation), measured.row.diameter
     return ReviewedCap(
         measured=measured,
         image=image.id,
         annotator=seen.annotators[annotation.uid],
         floor=floor_of_mark(annotation, image),
-        is_unsure=sd is not None and diameter is not None and max(sd) > UNSURE * diameter,
+        is_unsure=is_unsure(annotation),
         is_doubtful=annotation.cap.doubtful,
     )
 

@@ -216,6 +216,7 @@ export class Editor {
         this.#sync.takeBack(image, changeSet);
       },
       send: (message) => void this.#send(message),
+      compare: () => void (this.#reviewing.review.on = true),
     });
     listenToTags(() => state.image, (tag) => void this.#send(tag), this.#say);
     const legend = legendIn(host);

@@ -242,3 +242,20 @@ comparison = Table(
     Column("made_at", Text, nullable=False),
     **STRICT,
 )
+
+compared_cap = Table(
+    "compared_cap",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("image", Integer, ForeignKey("image.id"), nullable=False),
+    Column("run", Integer, ForeignKey("run.id"), nullable=False),
+    Column("annotation", Text),
+    Column("prediction", Integer),
+    Column("iou", Real),
+    Column("cdr", Real),
+    Column("floor", Real),
+    Column("doubtful", Flag, nullable=False),
+    Column("unsure", Flag, nullable=False),
+    Index(None, "run", "image"),
+    **NEVER_REUSED,
+)

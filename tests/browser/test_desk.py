@@ -251,3 +251,33 @@ def test_a_random_sample_that_passes_has_the_rest_approved(tmp_path: Path, brows
     assert [status_of(project, number) for number in range(1, 13)] == ["approved"] * 12
     words = {v.words for number in range(1, 13) for v in said_of(project, number)}
     assert words == {"", "By a sample: 0 of 5 wrong, 0 allowed"}
+
+
+def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
+    server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_role("button", name="Bring up to date").click()
+    caps = tab.page.get_by_role("group", name="Caps of all images")
+    caps.get_by_role("button", name="12 measured").wait_for()
+    worst = caps.locator(".fr-gallery button")
+    # Ada's second cap of each of the three images is the worst of its image.
+    assert [worst.nth(n).get_attribute("data-fairyring-select") for n in range(3)] == [
+        uid_of(image, 1) for image in (1, 2, 3)
+    ]
+    assert worst.first.locator("polygon").count() == 2
+    assert worst.first.locator("line").count() == 1
+    worst.nth(2).click()
+    on_image(tab, 3)
+    selected(tab, uid_of(3, 1))
+    assert tab.state("review.on") is True
+    caps.get_by_role("button", name="3 missed").click()
+    caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()
+    worst.first.click()
+    selected(tab, uid_of(1, 4))
+    caps.get_by_role("button", name="3 extra").click()
+    caps.get_by_text("1–3 of 3. Predicted, and not annotated.").wait_for()
+    worst.nth(1).click()
+    on_image(tab, 2)
+    tab.wait_for("window.fairyring.state.selection[0]?.startsWith('prediction:')")

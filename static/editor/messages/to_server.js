@@ -83,6 +83,12 @@
  */
 
 /**
+ * @typedef {Object} ShowCaps
+ * @property {"show_caps"} type
+ * @property {"worst" | "missed" | "extra" | "doubtful" | "unsure"} kind
+ */
+
+/**
  * @typedef {Object} FindCap
  * @property {"find_cap"} type
  * @property {number} seq
@@ -114,6 +120,6 @@
  * @property {number} job
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare} ToServer */
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare | ShowCaps} ToServer */
 
 export {};

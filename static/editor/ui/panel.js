@@ -12,6 +12,7 @@ import { keptUp, marked, put } from "./following.js";
  * @property {(command: string) => void} perform
  * @property {(tool: string) => void} use
  * @property {(image: number, changeSet: number) => void} takeBack  a change set of the image's history
+ * @property {() => void} compare  shows where annotations and predictions differ
  * @property {(message: import("../protocol.js").ToServer) => void} send
  */
 
@@ -29,20 +30,27 @@ export function listenToPanel(callbacks) {
 }
 
 /** @type {(target: Element, callbacks: Callbacks) => void} */
-function carryOut(target, { open, perform, use, takeBack, send }) {
+function carryOut(target, { open, perform, use, takeBack, send, compare }) {
   const button = target.closest(
-    "[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool], [data-fairyring-recall], [data-fairyring-cancel], [data-fairyring-predict]",
+    "[data-fairyring-open], [data-fairyring-command], [data-fairyring-tool], [data-fairyring-recall], [data-fairyring-cancel], [data-fairyring-predict], [data-fairyring-gallery]",
   );
   if (!(button instanceof HTMLElement)) return;
   const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool, fairyringRecall, fairyringImage } =
     button.dataset;
-  const { fairyringCancel, fairyringPredict } = button.dataset;
+  const { fairyringCancel, fairyringPredict, fairyringGallery, fairyringDifferences } = button.dataset;
+  if (isKind(fairyringGallery)) send({ type: "show_caps", kind: fairyringGallery });
+  if (fairyringDifferences !== undefined) compare();
   if (fairyringCancel) send({ type: "cancel", job: Number(fairyringCancel) });
   if (fairyringPredict) send({ type: "predict", image: Number(fairyringPredict) });
   if (fairyringOpen) open(Number(fairyringOpen), fairyringSelect || null);
   if (fairyringCommand) perform(fairyringCommand);
   if (fairyringTool) use(fairyringTool);
   if (fairyringRecall) takeBack(Number(fairyringImage), Number(fairyringRecall));
+}
+
+/** @type {(word: string | undefined) => word is import("../protocol.js").ShowCaps["kind"]} */
+function isKind(word) {
+  return ["worst", "missed", "extra", "doubtful", "unsure"].includes(word ?? "");
 }
 
 /** Which button says which status. @type {Record<string, import("../protocol.js").Status>} */

@@ -16,8 +16,10 @@ from fairyring.app.jobs.runner import CancelledError
 from fairyring.app.protocol import Show
 from fairyring.model.geometry.shapes import Circle
 from fairyring.model.progress import silent
+from fairyring.storage.compared_caps import count_caps, list_caps
 from fairyring.storage.comparisons import list_comparisons, stale_images
 from fairyring.storage.contents import load_contents, load_predictions
+from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from tests.support.stored import stored_comparison
 from tests.support.tab import Tab, new_cap, until
@@ -94,3 +96,28 @@ def test_an_edit_in_a_tab_brings_the_review_up_to_date(port: int, project: Proje
     with project.read() as connection:
         assert stored_comparison(connection, 1, 1).dx == pytest.approx(-3.2)
         assert list_comparisons(connection, 1).total == 1
+
+
+def test_every_cap_of_a_comparison_can_be_listed_the_worst_first(project: Project) -> None:
+    mark_both(project)
+    compare_image(project, 1)
+    with project.read() as connection:
+        run = latest_run(connection)
+        assert run is not None
+        worst = list_caps(connection, run.id, "worst")
+        missed = list_caps(connection, run.id, "missed")
+        counts = count_caps(connection, run.id)
+    assert [each.annotation for each in worst] == ["left", "right"]
+    assert worst[0].cdr == pytest.approx(100 * (1.6 / 160 + 0.6 / 120))
+    assert [(each.annotation, each.prediction) for each in missed] == [("far", None)]
+    assert counts == {"worst": 2, "missed": 1, "extra": 0, "doubtful": 0, "unsure": 0}
+
+
+def test_comparing_again_puts_the_caps_in_place_of_the_older_ones(project: Project) -> None:
+    mark_both(project)
+    compare_image(project, 1)
+    compare_image(project, 1)
+    with project.read() as connection:
+        run = latest_run(connection)
+        assert run is not None
+        assert count_caps(connection, run.id)["worst"] == 2

@@ -11,23 +11,34 @@ from msgspec import structs
 from fairyring.app.jobs.learnt import Learnt
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
-from fairyring.app.panels import images, jobs, review, status
+from fairyring.app.panels import desk, gallery, images, jobs, queue, review, status
 from fairyring.app.panels import inspector as cap
 from fairyring.app.panels.inspector import Background
 from fairyring.app.panels.learning import learnt_table
 from fairyring.app.panels.markup import element
 from fairyring.app.panels.several import several_facts
+from fairyring.app.review.queueing import standing_of
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.compared_caps import KINDS, CapFigures
 from fairyring.storage.comparisons import Comparison, ComparisonRow
 from fairyring.storage.images import ImagePage, ImageRow
 from fairyring.storage.journal import Entry
-from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Prediction, Run
+from fairyring.storage.records import (
+    Annotation,
+    Cap,
+    GivenVerdict,
+    Image,
+    ImageContents,
+    Prediction,
+    Queue,
+    Run,
+)
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (
-    "a button dd div dl dt figcaption figure header img kbd label li option p path progress section select "
-    "span strong svg table tbody td th thead tr ul"
+    "a button dd div dl dt figcaption figure h3 header image img kbd label li line ol option p path polygon "
+    "progress section select span strong svg table tbody td th thead tr ul"
 )
 
 
@@ -84,6 +95,13 @@ FIGURES = Comparison(
 )  # fmt: skip
 
 
+VERDICT = GivenVerdict(
+    number=1, image=1, annotation=EVIL, revision=1, says="comment", words=EVIL, user=EVIL, made_at=EVIL
+)
+QUEUE = Queue(number=1, user=EVIL, title=EVIL, images=[1])
+THUMBNAIL = gallery.Thumbnail(
+    IMAGE, CapFigures(image=1, run=1, annotation=EVIL, prediction=1, cdr=1.0), ANNOTATION, PREDICTION
+)
 LEARNT = Learnt(
     name=EVIL, base=EVIL, weights=EVIL, photos=EVIL, held_out=2, before={"AP": 0.5}, after={"AP": 0.6}
 )
@@ -122,6 +140,9 @@ def every_panel() -> dict[str, str]:
         "learnt": learnt_table(LEARNT).html,
         "review": review.review_page(reviewed, 0, 1).html,
         "jobs": jobs.job_list([told, running]).html,
+        "desk": desk.said_of_image([VERDICT]).html,
+        "queue": queue.queue_line(QUEUE, standing_of(QUEUE, {}), waiting=0).html,
+        "gallery": gallery.gallery("worst", dict.fromkeys(KINDS, 1), [THUMBNAIL], number=0).html,
     }
 
 
@@ -131,7 +152,7 @@ def test_hostile_strings_stay_text_in_every_panel() -> None:
         assert set(page.tags) <= set(HARMLESS_TAGS.split()), name
         assert not [key for key, _ in page.attributes if key.startswith("on")], name
         assert not [value for key, value in page.attributes if key == "src" and value == "x"], name
-        assert EVIL in page.text or name in {"summary", "images", "several"}, name
+        assert EVIL in page.text or name in {"summary", "images", "several", "gallery"}, name
 
 
 def test_a_simulated_run_is_called_that_plainly() -> None:
