@@ -1,7 +1,8 @@
 """Images taken out of a project: kept beside it with all that people said of them, until they are let go.
 
 What the database held of such an image lies in a file of its own, and its photo beside that. Nothing else of
-the project knows of it. Numbers are never given twice, so that everything can be put back as it was.
+the project knows of it. Numbers are never given twice, not even to what a file calls by them, so that
+everything can be put back as it was.
 """
 
 from __future__ import annotations
@@ -79,14 +80,13 @@ def take_out(project: Project, image_ids: Sequence[int], *, user: str) -> list[T
     except OSError as error:
         raise StoreError(f"{folder} cannot be written: {error.strerror}.") from error
     for each in taken:
-        _move_photo(each, project.folder / _path_of(each), folder / each.file_name)
+        _move_photo(each, project.folder / _path_of(each), _photo_of(folder, each))
     return taken
 
 
 def taken_out(project: Project) -> list[TakenOut]:
     """The images that can be put back, the last one first."""
-    files = (project.folder / TAKEN_OUT).glob("*.json")
-    kept = [msgspec.json.decode(file.read_bytes(), type=TakenOut) for file in files]
+    kept = _kept(project)
     with project.read() as connection:
         there = set(connection.execute(select(schema.image.c.id)).scalars())
     return sorted(
@@ -94,11 +94,21 @@ def taken_out(project: Project) -> list[TakenOut]:
     )
 
 
+def numbers_taken_out(project: Project) -> dict[str, set[int]]:
+    """The numbers, by table, of the images that can be put back and of what is theirs."""
+    numbers: dict[str, set[int]] = {}
+    for each in _kept(project):
+        for table in (schema.image, schema.annotation, schema.prediction):
+            own = numbers.setdefault(table.name, set())
+            own.update(row["id"] for row in each.rows.get(table.name, []))
+    return numbers
+
+
 def put_back(project: Project, images: Sequence[TakenOut]) -> None:
     """Puts images back as they were.
 
     Raises:
-        StoreError: another image has the name of one meanwhile. Nothing is changed then.
+        StoreError: another image has the name of one, or its caps, meanwhile. Nothing is changed then.
     """
     folder = project.folder / TAKEN_OUT
 
@@ -113,7 +123,7 @@ def put_back(project: Project, images: Sequence[TakenOut]) -> None:
                 update(schema.image).where(schema.image.c.id == each.number).values(version=newer)
             )
         for each in images:
-            _move_photo(each, folder / each.file_name, project.folder / _path_of(each))
+            _move_photo(each, _photo_of(folder, each), project.folder / _path_of(each))
 
     project.write(put)
     for each in images:
@@ -127,7 +137,7 @@ def let_go(project: Project) -> int:
     gone = taken_out(project)
     for each in gone:
         photo = project.folder / _path_of(each)
-        if _is_copied(each) and not (project.folder / TAKEN_OUT / each.file_name).exists():
+        if _is_copied(each) and not _photo_of(project.folder / TAKEN_OUT, each).exists():
             photo.unlink(missing_ok=True)  # whoever took it out was killed before it was moved
     shutil.rmtree(project.folder / TAKEN_OUT, ignore_errors=True)
     return len(gone)
@@ -173,10 +183,25 @@ def _require_free(connection: Connection, each: TakenOut) -> None:
     named = select(schema.image.c.id).where(schema.image.c.file_name == each.file_name)
     if connection.execute(named).first() is not None:
         raise StoreError(f"Another image is called {each.file_name} now; take that one out first.")
+    uids = {row["uid"] for row in each.rows.get(schema.annotation.name, [])}
+    theirs = select(schema.annotation.c.uid, schema.image.c.file_name).join(schema.image)
+    for row in connection.execute(theirs):
+        if row.uid in uids:
+            raise StoreError(f"{row.file_name} has caps of {each.file_name} now; take it out first.")
+
+
+def _kept(project: Project) -> list[TakenOut]:
+    files = (project.folder / TAKEN_OUT).glob("*.json")
+    return [msgspec.json.decode(file.read_bytes(), type=TakenOut) for file in files]
 
 
 def _file_of(folder: Path, each: TakenOut) -> Path:
     return folder / f"{each.number}.json"
+
+
+def _photo_of(folder: Path, each: TakenOut) -> Path:
+    """Where its photo is kept: by its number, as several that were taken out may have one name."""
+    return folder / f"{each.number}.photo"
 
 
 def _write(folder: Path, each: TakenOut) -> None:

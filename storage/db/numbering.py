@@ -13,12 +13,20 @@ CHUNK = 500
 
 
 def free_numbers(
-    connection: Connection, table: Table, wanted: Iterable[int | None], *, lowest: int = 1
+    connection: Connection,
+    table: Table,
+    wanted: Iterable[int | None],
+    *,
+    lowest: int = 1,
+    kept: Iterable[int] = (),
 ) -> list[int | None]:
-    """Each wanted number that no row has; None for the others, and for all but the first of those alike."""
+    """Each wanted number that no row has; None for the others, and for all but the first of those alike.
+
+    ``kept``: numbers of rows that may come back.
+    """
     asked = [number if number is not None and lowest <= number <= HIGHEST else None for number in wanted]
     distinct = list(dict.fromkeys(number for number in asked if number is not None))
-    taken: set[int] = set()
+    taken: set[int] = set(kept)
     for start in range(0, len(distinct), CHUNK):
         which = table.c.id.in_(distinct[start : start + CHUNK])
         taken.update(connection.execute(select(table.c.id).where(which)).scalars())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 from uuid import uuid4
 
@@ -31,6 +31,8 @@ from fairyring.storage.predictions import saw
 from fairyring.storage.records import Outline
 from fairyring.storage.statuses import follow_edits
 
+KeptNumbers = Mapping[str, Collection[int]]
+"""Numbers, by table, of what was taken out and may come back."""
 CHUNK = 500
 """How many uids are asked for in one statement."""
 
@@ -49,9 +51,13 @@ class Entered(Struct, frozen=True, kw_only=True):
     known: int = 0
 
 
-def enter_photos(connection: Connection, photos: Mapping[str, Photo]) -> list[Photo]:
-    """Adds images, by their paths; returns them with their ids, which are those of their files where free."""
-    numbers = free_numbers(connection, schema.image, [photo.number for photo in photos.values()])
+def enter_photos(connection: Connection, photos: Mapping[str, Photo], *, kept: KeptNumbers) -> list[Photo]:
+    """Adds images, by their paths; returns them with their ids, which are those of their files where free.
+
+    ``kept``: numbers that are free and stay so.
+    """
+    wanted = [photo.number for photo in photos.values()]
+    numbers = free_numbers(connection, schema.image, wanted, kept=kept.get(schema.image.name, ()))
     # Those with numbers first: the others are counted on from them.
     entered = sorted(zip(photos.items(), numbers, strict=True), key=lambda item: item[1] is None)
     made = [_enter_photo(connection, photo, path=path, number=number) for (path, photo), number in entered]
@@ -91,6 +97,7 @@ def enter_annotations(
     labelled: Sequence[Labelled],
     *,
     categories: Mapping[str, FoundCategory],
+    kept: KeptNumbers,
     user: str,
 ) -> Entered:
     """Adds annotations and their first journal rows, but for those whose uid is there already."""
@@ -118,7 +125,7 @@ def enter_annotations(
             | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
             | {"change_set": numbers[photo.id]}
         )
-    _insert_numbered(connection, schema.annotation, annotations)
+    _insert_numbered(connection, schema.annotation, annotations, kept=kept)
     insert_many(connection, schema.edit, edits)
     recount(connection, numbers)
     for image, number in numbers.items():
@@ -132,6 +139,7 @@ def enter_predictions(
     labelled: Sequence[Labelled],
     *,
     categories: Mapping[str, FoundCategory],
+    kept: KeptNumbers,
     run_id: int,
 ) -> Entered:
     """Adds a run's predictions, but for those that it holds already."""
@@ -152,7 +160,7 @@ def enter_predictions(
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
             | {"id": cap.id}
         )
-    _insert_numbered(connection, table, rows)
+    _insert_numbered(connection, table, rows, kept=kept)
     saw(connection, run_id=run_id, image_ids=[item.photo.id for item in labelled if item.photo.id])
     total = sum(len(item.caps) for item in labelled)
     return Entered(new=len(rows), known=total - len(rows))
@@ -168,10 +176,16 @@ def refused_as_prediction(cap: FoundCap) -> str | None:
 
 
 def _insert_numbered(
-    connection: Connection, table: Table, rows: Sequence[dict[str, Any]], *, lowest: int = 1
+    connection: Connection,
+    table: Table,
+    rows: Sequence[dict[str, Any]],
+    *,
+    kept: KeptNumbers,
+    lowest: int = 1,
 ) -> None:
     """Adds rows under the ids that their files give them, where these are free."""
-    numbers = free_numbers(connection, table, [row["id"] for row in rows], lowest=lowest)
+    wanted = [row["id"] for row in rows]
+    numbers = free_numbers(connection, table, wanted, lowest=lowest, kept=kept.get(table.name, ()))
     numbered = [row | {"id": number} for row, number in zip(rows, numbers, strict=True) if number is not None]
     others = [
         {name: value for name, value in row.items() if name != "id"}
@@ -194,7 +208,7 @@ def _category_ids(
     ids = load_categories(connection)
     new = {name: found for name, found in categories.items() if name not in ids}
     rows = [{"id": found.id, "name": name, "extra": found.extra} for name, found in new.items()]
-    _insert_numbered(connection, schema.category, rows, lowest=0)
+    _insert_numbered(connection, schema.category, rows, kept={}, lowest=0)
     ids = load_categories(connection)
     for name in sorted({cap.cap.category for _, cap in _pairs(labelled)}):
         ensure_category(connection, name, categories=ids)

@@ -22,6 +22,7 @@ from fairyring.storage.importing.split_folders import split_folders
 from fairyring.storage.importing.staging import staging
 from fairyring.storage.importing.storing import ImportReport, Parcel, store
 from fairyring.storage.project import Project
+from fairyring.storage.taken_out import numbers_taken_out
 
 
 def import_paths(
@@ -90,6 +91,7 @@ def import_paths(
                 compared=compared,
                 known_caps=known_caps,
                 link=link,
+                kept=numbers_taken_out(project),
                 user=user,
             )
             return project.write(lambda connection: store(connection, parcel, copies))

@@ -15,6 +15,7 @@ from fairyring.storage.formats.found import FoundCategory, Problem
 from fairyring.storage.importing.changing import edits_of, record
 from fairyring.storage.importing.comparing import Compared, compare, is_as_compared
 from fairyring.storage.importing.entering import (
+    KeptNumbers,
     Labelled,
     enter_annotations,
     enter_photos,
@@ -69,6 +70,7 @@ class Parcel(Struct, frozen=True, kw_only=True):
     known_caps: KnownCaps
     link: bool
     """Photos stay where they are."""
+    kept: KeptNumbers
     user: str
 
 
@@ -78,7 +80,7 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
     photos = photos_of_project(connection)
     new = [photo for photo in intake.new_photos if not _is_known(photo, photos)]
     by_path = {_path_of(photo, link=parcel.link): photo for photo in new}
-    photos |= {photo.file_name: photo for photo in enter_photos(connection, by_path)}
+    photos |= {photo.file_name: photo for photo in enter_photos(connection, by_path, kept=parcel.kept)}
     for name in intake.seen | intake.copies:
         if intake.photos[name].id is not None and intake.photos[name] != photos[name]:
             tell_more(connection, intake.photos[name])
@@ -110,7 +112,10 @@ def _store_annotations(
     assert parcel.compared is not None
     compared = [_as_now(connection, each, photos[each.photo.file_name]) for each in parcel.compared]
     labelled = [Labelled(photo=photos[each.photo.file_name], caps=each.new) for each in compared]
-    entered = enter_annotations(connection, labelled, categories=_categories(parcel), user=parcel.user)
+    categories = _categories(parcel)
+    entered = enter_annotations(
+        connection, labelled, categories=categories, kept=parcel.kept, user=parcel.user
+    )
     edits = [edit for each in compared for edit in edits_of(each, parcel.known_caps)]
     record(connection, edits, user=parcel.user)
     boxes = sum(cap.is_box for each in compared for cap in each.new)
@@ -139,7 +144,8 @@ def _store_predictions(
     if not labelled:
         return report
     run = _run_of(connection, parcel.sources)
-    entered = enter_predictions(connection, labelled, categories=_categories(parcel), run_id=run.id)
+    categories = _categories(parcel)
+    entered = enter_predictions(connection, labelled, categories=categories, kept=parcel.kept, run_id=run.id)
     return structs.replace(report, predictions=entered.new, known=entered.known, run=run.id)
 
 

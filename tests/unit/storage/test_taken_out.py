@@ -4,7 +4,7 @@ import pytest
 
 from fairyring.storage.contents import load_version
 from fairyring.storage.errors import StoreError
-from fairyring.storage.images import ImageFilter, list_images
+from fairyring.storage.images import ImageFilter, find_image, list_images
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Edit
@@ -95,6 +95,55 @@ def test_an_image_that_took_its_name_is_in_the_way(worked_on, tmp_path, write_ph
         put_back(worked_on, taken_out(worked_on))
     assert rows_of(worked_on) == before
     assert len(taken_out(worked_on)) == 1
+
+
+def test_an_import_gives_no_number_that_was_taken_out(worked_on, tmp_path, write_photo, write_coco):
+    before = rows_of(worked_on)
+    take_out(worked_on, [1], user="ann")
+    write_photo(tmp_path / "labels" / "bed_4.png", seed=7)
+    images = [{"id": 1, "file_name": "bed_4.png"}]
+    import_paths(worked_on, [write_coco([{"id": 1, "segmentation": [TRIANGLE]}], images=images)])
+    entered = rows_of(worked_on)
+    assert [row[0] for row in entered["image"]] == [2, 3, 4]
+    assert [row[0] for row in entered["annotation"]] == [3, 4]
+    put_back(worked_on, taken_out(worked_on))
+    after = rows_of(worked_on)
+    assert after["prediction"] == before["prediction"]
+    for table in ("annotation", "edit"):
+        assert set(map(repr, before[table])) < set(map(repr, after[table]))
+
+
+def test_several_of_one_name_are_kept_apart(worked_on, tmp_path, write_photo):
+    first = (worked_on.images / "bed_1.png").read_bytes()
+    take_out(worked_on, [1], user="ann")
+    other = write_photo(tmp_path / "new" / "bed_1.png", seed=7)
+    import_paths(worked_on, [other])
+    with worked_on.read() as connection:
+        image = find_image(connection, "bed_1.png")
+    assert image is not None
+    number = image.id
+    take_out(worked_on, [number], user="ann")
+    kept = taken_out(worked_on)
+    assert {each.number for each in kept} == {1, number}
+    put_back(worked_on, [each for each in kept if each.number == 1])
+    assert (worked_on.images / "bed_1.png").read_bytes() == first
+    take_out(worked_on, [1], user="ann")
+    put_back(worked_on, [each for each in taken_out(worked_on) if each.number == number])
+    assert (worked_on.images / "bed_1.png").read_bytes() == other.read_bytes()
+
+
+def test_an_image_that_took_its_caps_is_in_the_way(worked_on, tmp_path, write_photo, write_coco):
+    uid = rows_of(worked_on)["annotation"][0][1]
+    take_out(worked_on, [1], user="ann")
+    write_photo(tmp_path / "labels" / "bed_4.png", seed=7)
+    images = [{"id": 4, "file_name": "bed_4.png"}]
+    import_paths(
+        worked_on, [write_coco([{"image_id": 4, "uid": uid, "segmentation": [TRIANGLE]}], images=images)]
+    )
+    before = rows_of(worked_on)
+    with pytest.raises(StoreError, match=r"bed_4\.png has caps of bed_1\.png now; take it out first"):
+        put_back(worked_on, taken_out(worked_on))
+    assert rows_of(worked_on) == before
 
 
 def test_linked_photos_stay_where_they_are(project, tmp_path, write_photo):
