@@ -68,7 +68,9 @@ def test_a_bed_is_corrected_completely_and_the_inputs_are_counted():
 
     assert _named(rows, "8 caps: S75")["value"] == 1.0
     assert _named(rows, "8 caps: AP")["value"] >= _named(rows, "8 caps: AP")["reference"]
-    counted = [_named(rows, f"8 caps: {kind}")["value"] for kind in ("keys", "clicks", "strokes", "inputs")]
+    counted = [
+        _named(rows, f"8 caps: {kind}")["value"] for kind in ("pressed", "clicks", "strokes", "inputs")
+    ]
     assert sum(counted[:3]) == counted[3] > 0
     assert 0 < _named(rows, "8 caps: a person")["value"] < _named(rows, "8 caps: with a decision")["value"]
 

@@ -7,7 +7,8 @@ time with interactive systems", 1980. A line is drawn at the pace of somebody wh
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -28,6 +29,8 @@ class Inputs:
     points: int = 0
     clicks: int = 0
     keys: int = 0
+    presses: int = 0
+    """Of keys, those pressed together counted once; a key held for a click or a stroke is part of that."""
     strokes: int = 0
     """Lines drawn with the button held."""
     traced_px: float = 0.0
@@ -36,8 +39,8 @@ class Inputs:
 
     @property
     def count(self) -> int:
-        """Of the inputs: clicks, keys and strokes."""
-        return self.clicks + self.keys + self.strokes
+        """How many things a person did: presses, clicks and strokes."""
+        return self.presses + self.clicks + self.strokes
 
     @property
     def seconds(self) -> float:
@@ -65,7 +68,8 @@ class Hand:
     def press(self, *keys: str) -> None:
         """Presses keys, one after the other; a chord is a press of each of its keys."""
         for key in keys:
-            self.done.keys += 1 if len(key) == 1 else len(key.split("+"))
+            self.done.presses += 1
+            self.done.keys += len(key.split("+"))
             self.tab.press(key)
 
     def point(self, at: Point) -> None:
@@ -75,14 +79,16 @@ class Hand:
         self.tab.page.mouse.move(x - 1, y)
         self.tab.page.mouse.move(x, y)
 
-    def click(self) -> None:
-        """Presses the button where the pointer is, and lets it go."""
+    def click(self, *, key: str | None = None) -> None:
+        """Presses the button where the pointer is, and lets it go, with a key held or none."""
         self.done.clicks += 1
-        self.tab.page.mouse.down()
-        self.tab.page.mouse.up()
+        with self._held(key):
+            self.tab.page.mouse.down()
+            self.tab.page.mouse.up()
 
     def wheel(self, notches: int) -> None:
         """Turns the wheel towards the photo; a notch takes as long as a key."""
+        self.done.presses += notches
         self.done.keys += notches
         for _ in range(notches):
             self.tab.page.mouse.wheel(0, -100)
@@ -91,19 +97,23 @@ class Hand:
         """Draws a line with the button held, and with a key or none."""
         self.point(line[0])
         self.done.strokes += 1
-        mouse, keyboard = self.tab.page.mouse, self.tab.page.keyboard
+        mouse = self.tab.page.mouse
+        with self._held(key):
+            mouse.down()
+            for start, end in pairwise(self._seldom([self._pixel(at) for at in line])):
+                length = math.dist(start, end)
+                self.done.traced_px += length
+                mouse.move(*end, steps=max(1, round(length / STEP_PX)))
+            mouse.up()
+
+    @contextmanager
+    def _held(self, key: str | None) -> Iterator[None]:
         if key is not None:
             self.done.keys += 1
-            keyboard.down(key)
-        mouse.down()
-        places = self._seldom([self._pixel(at) for at in line])
-        for start, end in pairwise(places):
-            length = math.dist(start, end)
-            self.done.traced_px += length
-            mouse.move(*end, steps=max(1, round(length / STEP_PX)))
-        mouse.up()
+            self.tab.page.keyboard.down(key)
+        yield
         if key is not None:
-            keyboard.up(key)
+            self.tab.page.keyboard.up(key)
 
     def _seldom(self, places: Sequence[Point]) -> list[Point]:
         """The first of the places, and each that lies a step from the one before; the last in any case."""

@@ -78,7 +78,7 @@ def _corrected(browser: Browser, task: Task) -> list[Row]:
         row(f"{what}: with a decision on every cap", done.seconds + DECIDE_S * len(truth), unit="s"),
         row(f"{what}: the machine's own time for these inputs", machine_s, unit="s"),
         row(f"{what}: inputs", done.count, unit=""),
-        row(f"{what}: keys", done.keys, unit=""),
+        row(f"{what}: pressed keys, those pressed together once", done.presses, unit=""),
         row(f"{what}: clicks", done.clicks, unit=""),
         row(f"{what}: strokes", done.strokes, unit=""),
         row(f"{what}: drawn along", done.traced_px, unit="px"),
