@@ -7,8 +7,9 @@ import multiprocessing
 import os
 import signal
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -16,12 +17,17 @@ import cv2
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
-AHEAD = 2
+AHEAD = 3
 """So many tasks for each process are handed over before it asks for them."""
 
 
+def usable_cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def worked_on(work: Callable[[Task], Result], tasks: Iterable[Task], *, jobs: int) -> Iterator[Result]:
-    """What ``work`` makes of each task, as it comes; with one job in this process, else in that many.
+    """What ``work`` makes of each task, in their order; with one job in this process, else in that many.
 
     Tasks are taken a few at a time, so that all of them need never be there at once.
     Raises BrokenProcessPool (a RuntimeError) where one of them is ended from outside.
@@ -29,19 +35,16 @@ def worked_on(work: Callable[[Task], Result], tasks: Iterable[Task], *, jobs: in
     if jobs == 1:
         yield from map(work, tasks)
         return
-    waiting = iter(tasks)
+    waiting, handed_over = iter(tasks), deque[Future[Result]]()
     pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=_begin)
     try:
-        futures: set[Future[Result]] = set()
         while True:
-            for task in itertools.islice(waiting, AHEAD * jobs - len(futures)):
+            for task in itertools.islice(waiting, AHEAD * jobs - len(handed_over)):
                 with _ctrl_c_held_back():
-                    futures.add(pool.submit(work, task))
-            if not futures:
+                    handed_over.append(pool.submit(work, task))
+            if not handed_over:
                 return
-            done, futures = wait(futures, return_when=FIRST_COMPLETED)
-            for future in done:
-                yield future.result()
+            yield handed_over.popleft().result()
     finally:
         pool.shutdown(cancel_futures=True)
 

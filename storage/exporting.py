@@ -9,8 +9,10 @@ from typing import Any, BinaryIO
 
 import msgspec
 from msgspec import Struct
-from sqlalchemy import Connection, select
+from sqlalchemy import Connection, func, select
 
+from fairyring.model.garbage import garbage_left_alone
+from fairyring.model.processes import worked_on
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.choices import ExportedPhotos, Only
 from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
@@ -18,13 +20,12 @@ from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
 from fairyring.storage.errors import StoreError
 from fairyring.storage.exported_photos import write_photos
+from fairyring.storage.formats.coco_lines import CapsOfImage, Lines, lines_of, lines_of_packed, packed
 from fairyring.storage.formats.coco_results import result_entry, write_results
 from fairyring.storage.formats.coco_writing import (
-    annotation_entry,
     category_entry,
     image_entry,
     info_entry,
-    prediction_entry,
     write_document,
 )
 from fairyring.storage.project import Project
@@ -35,10 +36,15 @@ from fairyring.storage.verdicts import all_verdicts
 from fairyring.storage.whole_folders import made_whole
 
 Cap = Annotation | Prediction
+Numbered = list[tuple[int, Cap]]
 Verdicts = defaultdict[tuple[int, str | None], list[GivenVerdict]]
 """What was said of each image, and of each cap by its uid."""
 BESIDE_ANNOTATIONS = 1 << 31
 """Added to the numbers of predictions that are exported beside annotations, which have lower ones."""
+
+
+WORTH_PROCESSES = 15_000
+"""Caps from which several processes are sooner done than this one."""
 
 
 class Wanted(Struct, frozen=True, kw_only=True):
@@ -81,6 +87,7 @@ def export_coco(
     wanted: Wanted = ANNOTATED,
     *,
     results: BinaryIO | None = None,
+    jobs: int = 1,
     progress: Progress = silent,
 ) -> ExportReport:
     """Writes ``out/instances.json`` and ``out/images/``; all of it appears at once, or nothing does.
@@ -95,14 +102,17 @@ def export_coco(
         out: a new or an empty folder.
         wanted: which images, with what of them.
         results: an open file for the predictions as COCO's list of results.
+        jobs: how many processes may write the labels.
         progress: called once an image; what it raises ends the export, leaving nothing behind.
 
     Raises:
         StoreError: ``out`` holds something or cannot be written, a photo is gone, or no image is left.
     """
-    with project.read() as connection, made_whole(out) as folder:
+    with garbage_left_alone(), project.read() as connection, made_whole(out) as folder:
         images = images_of(connection, wanted)
-        written = write_set(project, connection, images, wanted, folder, results=results, progress=progress)
+        written = write_set(
+            project, connection, images, wanted, folder, results=results, jobs=jobs, progress=progress
+        )
         return some_left(written)
 
 
@@ -121,6 +131,7 @@ def write_set(
     folder: Path,
     *,
     results: BinaryIO | None = None,
+    jobs: int = 1,
     progress: Progress = silent,
 ) -> ExportReport:
     """Writes these images as one data set into an empty folder. Raises StoreError."""
@@ -158,7 +169,7 @@ def write_set(
     numbers = {row.name: row.id for row in categories}
     caps = _caps(connection, images, wanted, progress=progress)
     with (folder / "instances.json").open("wb") as file:
-        count = write_document(file, head, _entries(connection, caps, numbers, verdicts))
+        count = write_document(file, head, _lines(connection, caps, numbers, verdicts, jobs=jobs))
     if results is not None:
         caps = _caps(connection, images, wanted, progress=progress)
         write_results(results, _results(caps, numbers))
@@ -206,14 +217,19 @@ def _runs(connection: Connection, images: list[Image], wanted: Wanted) -> list[t
 
 def _caps(
     connection: Connection, images: list[Image], wanted: Wanted, *, progress: Progress
-) -> Iterator[tuple[Image, int, Cap]]:
+) -> Iterator[tuple[Image, Numbered]]:
     """The images, and of each the caps with their numbers in the file."""
     load = _loader(connection, wanted)
     for done, image in enumerate(images):
         progress(done, len(images), "Writing labels")
-        for number, cap in load(image):
-            if wanted.with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored):
-                yield image, number, cap
+        yield (
+            image,
+            [
+                (number, cap)
+                for number, cap in load(image)
+                if wanted.with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored)
+            ],
+        )
 
 
 def _loader(connection: Connection, wanted: Wanted) -> Callable[[Image], list[tuple[int, Any]]]:
@@ -242,37 +258,49 @@ def _verdicts(connection: Connection) -> Verdicts:
     return given
 
 
-def _entries(
+def _lines(
     connection: Connection,
-    caps: Iterator[tuple[Image, int, Cap]],
+    caps: Iterator[tuple[Image, Numbered]],
     categories: dict[str, int],
     verdicts: Verdicts,
-) -> Iterator[dict[str, Any]]:
-    of_image, origins = 0, {}
-    for image, number, cap in caps:
-        size = image.width, image.height
-        if isinstance(cap, Annotation):
-            if of_image != image.id:
-                of_image, origins = image.id, origins_of(connection, image.id)
-            category = categories[cap.cap.category]
-            yield annotation_entry(
-                cap,
-                number=number,
-                size=size,
-                category=category,
-                origin=origins[cap.uid],
-                verdicts=verdicts[image.id, cap.uid],
-            )
-        else:
-            category = categories[cap.category]
-            yield prediction_entry(cap, number=number, size=size, category=category)
+    *,
+    jobs: int,
+) -> Iterator[Lines]:
+    """The annotations of each image as they are written, by so many processes where these are worth it."""
+    tasks = (_task(connection, image, numbered, categories, verdicts) for image, numbered in caps)
+    if jobs == 1 or (connection.execute(_CAPS).scalar_one() or 0) < WORTH_PROCESSES:
+        return map(lines_of, tasks)
+    return worked_on(lines_of_packed, map(packed, tasks), jobs=jobs)
 
 
-def _results(caps: Iterator[tuple[Image, int, Cap]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
-    for image, _, cap in caps:
-        if isinstance(cap, Prediction):
-            size = image.width, image.height
-            yield result_entry(cap, size=size, category=categories[cap.category])
+_CAPS = select(func.sum(schema.image.c.caps + schema.image.c.predicted))
+
+
+def _task(
+    connection: Connection,
+    image: Image,
+    numbered: Numbered,
+    categories: dict[str, int],
+    verdicts: Verdicts,
+) -> CapsOfImage:
+    annotations = [(number, cap) for number, cap in numbered if isinstance(cap, Annotation)]
+    said = {cap.uid: verdicts.get((image.id, cap.uid)) for _, cap in annotations}
+    return CapsOfImage(
+        size=(image.width, image.height),
+        categories=categories,
+        annotations=annotations,
+        predictions=[(number, cap) for number, cap in numbered if isinstance(cap, Prediction)],
+        origins=origins_of(connection, image.id) if annotations else {},
+        verdicts={uid: given for uid, given in said.items() if given is not None},
+    )
+
+
+def _results(caps: Iterator[tuple[Image, Numbered]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
+    for image, numbered in caps:
+        for _, cap in numbered:
+            if isinstance(cap, Prediction):
+                size = image.width, image.height
+                yield result_entry(cap, size=size, category=categories[cap.category])
 
 
 def _exported(only: Only, runs: list[tuple[Run, int]]) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from fairyring.storage.whole_folders import made_whole
 
 
 def export_splits(
-    project: Project, out: Path, wanted: Wanted, *, progress: Progress = silent
+    project: Project, out: Path, wanted: Wanted, *, jobs: int = 1, progress: Progress = silent
 ) -> ExportReport:
     """Writes ``out/train/instances.json``, ``out/train/images/`` and so on for the splits that have images.
 
@@ -34,7 +34,7 @@ def export_splits(
         for split in sorted(images, key=list(Split).index):
             (folder / split).mkdir()
             reports[split] = write_set(
-                project, connection, images[split], wanted, folder / split, progress=progress
+                project, connection, images[split], wanted, folder / split, jobs=jobs, progress=progress
             )
         return some_left(_joined(reports))
 

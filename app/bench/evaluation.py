@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from fairyring.app.bench.serving import FAIRYRING
@@ -67,7 +68,7 @@ def _written(path: Path, photos: int, *, shift: float) -> Path:
     ]
     head = {"images": images, "categories": [{"id": 1, "name": DEFAULT_CATEGORY}]}
     with path.open("wb") as file:
-        write_document(file, head, _entries(photos, shift))
+        write_document(file, head, ((1, msgspec.json.encode(entry)) for entry in _entries(photos, shift)))
     return path
 
 

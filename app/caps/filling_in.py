@@ -6,7 +6,6 @@ for the images it reads. What is lacking stands in `storage.derived`.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
 from contextlib import suppress
 from typing import Protocol, TypeVar
@@ -20,7 +19,7 @@ from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.workers.crew import Run
 from fairyring.model.contour.marks import reconstruction_of_mark
 from fairyring.model.geometry.shapes import Fit
-from fairyring.model.processes import worked_on
+from fairyring.model.processes import usable_cores, worked_on
 from fairyring.model.progress import Progress, silent
 from fairyring.storage import derived
 from fairyring.storage.contents import load_contents
@@ -57,8 +56,7 @@ def one_by_one(run: Run) -> Compute:
 
 def on_all_cores(work: Callable[[Task], Found], tasks: Iterable[Task], /) -> Iterator[Found]:
     """Computes by as many processes as this one may use cores."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return worked_on(work, tasks, jobs=cores)
+    return worked_on(work, tasks, jobs=usable_cores())
 
 
 def fill_in(

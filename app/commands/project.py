@@ -75,6 +75,7 @@ def export(
     Example: `fairyring export beds beds-coco --format coco --only approved`
     """
     from fairyring.app.caps.filling_in import fill_in
+    from fairyring.model.processes import usable_cores
     from fairyring.storage.exporting import Wanted, export_coco
     from fairyring.storage.exporting_splits import export_splits
     from fairyring.storage.project import open_project
@@ -103,10 +104,12 @@ def export(
                 skip_missing=skip_missing,
             )
         if by_split:
-            report = export_splits(project, out, wanted, progress=progress)
+            report = export_splits(project, out, wanted, jobs=usable_cores(), progress=progress)
         else:
             with _written(results) as file:
-                report = export_coco(project, out, wanted, results=file, progress=progress)
+                report = export_coco(
+                    project, out, wanted, results=file, jobs=usable_cores(), progress=progress
+                )
     for sentence in report.left_out:
         typer.echo(sentence, err=True)
     if report.runs:

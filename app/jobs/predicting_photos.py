@@ -11,7 +11,8 @@ from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.photo import SUFFIXES, probe
 from fairyring.model.progress import Progress, silent
-from fairyring.storage.formats.coco_writing import category_entry, prediction_entry
+from fairyring.storage.formats.coco_geometry import geometry_keys
+from fairyring.storage.formats.coco_writing import category_entry, drawn, prediction_entry
 from fairyring.storage.records import Image, Prediction
 
 
@@ -60,8 +61,8 @@ def _image(path: Path, *, number: int) -> Image:
 
 def _entries(finder: Finder, path: Path, image: Image, *, first: int) -> Iterator[dict[str, Any]]:
     found, _ = predictions_in(finder, path, image)
-    for number, new in enumerate(found, start=first):
-        said = Prediction(
+    said = [
+        Prediction(
             id=number,
             run=0,
             image=image.id,
@@ -71,7 +72,11 @@ def _entries(finder: Finder, path: Path, image: Image, *, first: int) -> Iterato
             centre=new.fit.centre,
             extra=new.extra,
         )
-        yield prediction_entry(said, number=number, size=(image.width, image.height), category=1)
+        for number, new in enumerate(found, start=first)
+    ]
+    geometry = geometry_keys([drawn(each) for each in said], size=(image.width, image.height))
+    for each, keys in zip(said, geometry, strict=True):
+        yield prediction_entry(each, keys, number=each.id, category=1)
 
 
 def _photos_of(path: Path) -> list[Path]:

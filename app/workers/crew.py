@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
 from fairyring.app.workers.worker import Worker
+from fairyring.model.processes import usable_cores
 
 MOST_FOR_FITS = 4
 """Most processes for fits: the one that answers everybody keeps no more of them busy."""
@@ -55,8 +55,7 @@ class Crew:
 
 def crew(*, apart: bool) -> Crew:
     """As many as this machine's cores are good for; without ``apart`` all work in threads of this process."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    count = min(max(cores - 1, 1), MOST_FOR_FITS)
+    count = min(max(usable_cores() - 1, 1), MOST_FOR_FITS)
     return Crew(
         fits=[Worker(f"fits-{number}", nice=A_LITTLE_NICE, apart=apart) for number in range(count)],
         patient=Worker("patient", nice=NICE, apart=apart),

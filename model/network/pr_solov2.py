@@ -65,9 +65,10 @@ class PRSOLOv2(nn.Module):
         self.point_head = PointHead(config) if config.point_rend == "instance" else None
         self.sharpen = SemanticPointRend(config) if config.point_rend == "semantic" else None
         mean, std = normalisation_of(config.backbone)
-        self.register_buffer("mean", torch.tensor(mean).view(1, 3, 1, 1), persistent=False)
+        # No weights file holds these: they are there also where the rest is built without memory.
+        self.register_buffer("mean", torch.tensor(mean, device="cpu").view(1, 3, 1, 1), persistent=False)
         self.register_buffer("calibration", torch.tensor([1.0, 0.0]))
-        self.register_buffer("std", torch.tensor(std).view(1, 3, 1, 1), persistent=False)
+        self.register_buffer("std", torch.tensor(std, device="cpu").view(1, 3, 1, 1), persistent=False)
 
     def forward(self, photos: Tensor, origins: Tensor) -> Outputs:
         """``photos`` (B, 3, H, W) uint8 or float 0…255; ``origins`` (B, 2): see ``with_coordinates``."""

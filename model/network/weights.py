@@ -92,9 +92,7 @@ def load_weights(path: Path) -> Weights:
         card = msgspec.json.decode(metadata.get("card", "{}"), type=dict[str, Any])
         if odd := oddity(config):
             raise WeightsError(f"{path} describes a network that makes no sense: {odd}.")
-        _check_shapes(config, state)
-        network = PRSOLOv2(config)
-        network.load_state_dict({key: value.float() for key, value in state.items()})
+        network = _network_of(config, state)
     except (msgspec.MsgspecError, KeyError, RuntimeError, ValueError, TypeError) as error:
         raise WeightsError(
             f"{path} holds another network than it says; it was made by another version of Fairyring."
@@ -110,15 +108,19 @@ def _check_values(path: Path, state: Mapping[str, Tensor]) -> None:
             raise WeightsError(f"{path} holds values in {key} that are not finite; train again.")
 
 
-def _check_shapes(config: NetworkConfig, state: Mapping[str, Tensor]) -> None:
-    """Compares with a network that takes no memory: a description costs nothing to write.
+def _network_of(config: NetworkConfig, state: Mapping[str, Tensor]) -> PRSOLOv2:
+    """The network that is described, with these weights.
 
-    Raises ValueError.
+    It is built without memory, as a description of huge layers costs nothing to write, and takes the tensors
+    over once they are known to fit. Raises ValueError.
     """
     with torch.device("meta"):
-        wanted = {key: value.shape for key, value in PRSOLOv2(config).state_dict().items()}
-    if wanted != {key: value.shape for key, value in state.items()}:
+        network = PRSOLOv2(config)
+    wanted = network.state_dict()
+    if {key: value.shape for key, value in wanted.items()} != {k: value.shape for k, value in state.items()}:
         raise ValueError("the tensors have other names or shapes")
+    network.load_state_dict({key: value.to(wanted[key].dtype) for key, value in state.items()}, assign=True)
+    return network
 
 
 def digest_of(state: Mapping[str, Tensor], network: str) -> str:

@@ -10,7 +10,7 @@ import msgspec
 from fairyring.model.coco.writing import rounded
 from fairyring.model.geometry.raster import area_of_rle, rle_of_outline
 from fairyring.model.geometry.shapes import bounds_of_outline
-from fairyring.storage.formats.coco_writing import written_outline
+from fairyring.storage.formats.coco_geometry import written_outline
 from fairyring.storage.records import Prediction
 
 

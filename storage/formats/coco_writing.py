@@ -8,21 +8,12 @@ from typing import Any, BinaryIO
 
 import msgspec
 
-from fairyring.model.coco.writing import (
-    MARKED,
-    RECONSTRUCTED,
-    centre_keys,
-    outline_keys,
-    rounded,
-    rounded_outline,
-    whole_keys,
-)
-from fairyring.model.geometry.clipping import clipped_outline
-from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, polygon_of_shape
-from fairyring.model.geometry.uniting import united_with
+from fairyring.model.coco.writing import MARKED, RECONSTRUCTED, centre_keys, rounded
+from fairyring.model.geometry.shapes import Circle, Ellipse
+from fairyring.storage.formats.coco_geometry import Drawn
 from fairyring.storage.formats.foreign_keys import without_geometry
 from fairyring.storage.provenance import Standing
-from fairyring.storage.records import Annotation, GivenVerdict, Image, Mark, Outline, Prediction, Shape
+from fairyring.storage.records import Annotation, GivenVerdict, Image, Prediction
 
 VERDICTS = "verdicts"
 KEYPOINTS = ["centre"]
@@ -30,28 +21,35 @@ WRITTEN_BY = f"Fairyring {version('fairyring')}"
 NOT_SAID: dict[str, Any] = {}
 
 
+def drawn(cap: Annotation | Prediction) -> Drawn:
+    """Where a cap is."""
+    if isinstance(cap, Prediction):
+        return Drawn(visible=cap.visible, whole=cap.whole)
+    mark = cap.cap.mark
+    whole = mark if isinstance(mark, Circle | Ellipse) else cap.whole
+    return Drawn(visible=cap.cap.visible, mark=mark, whole=whole)
+
+
 def annotation_entry(
     annotation: Annotation,
+    geometry: dict[str, Any],
     *,
     number: int,
-    size: tuple[int, int],
     category: int,
     origin: dict[str, Any] = NOT_SAID,
     verdicts: Sequence[GivenVerdict] = (),
 ) -> dict[str, Any]:
     """The entry of an annotation.
 
-    ``number`` and ``category`` are ids in the file, ``size`` is the image's width and height, ``origin``
-    says who made it, and ``verdicts`` what reviewers said of it. What an imported file says of its origin
-    stands until the cap is edited.
+    ``geometry`` are the keys that ``geometry_keys`` gives it, ``number`` and ``category`` are ids in the
+    file, ``origin`` says who made it, and ``verdicts`` what reviewers said of it. What an imported file says
+    of its origin stands until the cap is edited.
     """
     cap = annotation.cap
-    marked = cap.mark is not None
-    whole, centre = annotation.whole, annotation.centre
+    marked, centre = cap.mark is not None, annotation.centre
     if isinstance(cap.mark, Circle | Ellipse):
-        whole, centre = cap.mark, (cap.mark.cx, cap.mark.cy)
-    entry = _geometry(cap.visible, cap.mark, whole, size=size)
-    entry |= {"image_id": annotation.image, "category_id": category}
+        centre = cap.mark.cx, cap.mark.cy
+    entry = geometry | {"image_id": annotation.image, "category_id": category}
     entry |= {"iscrowd": int(cap.ignored), "marked": marked}
     entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
     if annotation.centre_sd is not None:
@@ -69,11 +67,10 @@ def annotation_entry(
 
 
 def prediction_entry(
-    prediction: Prediction, *, number: int, size: tuple[int, int], category: int
+    prediction: Prediction, geometry: dict[str, Any], *, number: int, category: int
 ) -> dict[str, Any]:
     """The entry of a prediction, with its score; the rest as for ``annotation_entry``."""
-    entry = _geometry(prediction.visible, None, prediction.whole, size=size)
-    entry |= {"image_id": prediction.image, "category_id": category, "iscrowd": 0}
+    entry = geometry | {"image_id": prediction.image, "category_id": category, "iscrowd": 0}
     entry |= {"score": prediction.score}
     entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
     return {"id": number} | prediction.extra | entry
@@ -137,53 +134,19 @@ def category_entry(name: str, extra: dict[str, Any], *, number: int) -> dict[str
     return extra | {"id": number, "name": name, "keypoints": KEYPOINTS, "skeleton": []}
 
 
-def write_document(file: BinaryIO, head: dict[str, Any], entries: Iterable[dict[str, Any]]) -> int:
+def write_document(file: BinaryIO, head: dict[str, Any], lines: Iterable[tuple[int, bytes]]) -> int:
     """Writes ``head`` and then the annotations one a line, so that half a million need no memory.
 
-    Returns how many there were.
+    ``lines`` are some of these at a time: how many, and their text. Returns how many there were.
     """
-    encoder = msgspec.json.Encoder()
-    count = 0
-    file.write(encoder.encode(head)[:-1] + b',\n"annotations": [')
-    for entry in entries:
-        file.write((b",\n" if count else b"\n") + encoder.encode(entry))
-        count += 1
+    written = 0
+    file.write(msgspec.json.encode(head)[:-1] + b',\n"annotations": [')
+    for count, text in lines:
+        if count:
+            file.write((b",\n" if written else b"\n") + text)
+            written += count
     file.write(b"\n]}\n")
-    return count
-
-
-def written_outline(visible: Outline, mark: Mark | None, *, size: tuple[int, int]) -> Outline:
-    """The ``segmentation`` of a cap: its visible outline, else its mark as a polygon."""
-    return rounded_outline(_inside(visible or [_polygon_of(mark)], size))
-
-
-def _geometry(
-    visible: Outline, mark: Mark | None, whole: Shape | None, *, size: tuple[int, int]
-) -> dict[str, Any]:
-    entry = outline_keys(written_outline(visible, mark, size=size))
-    if not visible:
-        entry["segmentation_of"] = "mark"
-    if isinstance(mark, Polygon):
-        entry["mark"] = rounded(mark.points)
-    if whole is not None:
-        entry |= whole_keys(whole, visible_area=entry["area"] if visible else None)
-        # No ellipse follows a cap exactly; programs that know whole outlines expect the visible one within.
-        united = united_with(entry["amodal_segmentation"][0], entry["segmentation"])
-        entry["amodal_segmentation"] = rounded_outline(united)
-    return entry
-
-
-def _inside(outline: Outline, size: tuple[int, int]) -> Outline:
-    """What of it the photo shows; all of a mark beside the photo, which an annotation cannot do without."""
-    try:
-        return clipped_outline(outline, width=size[0], height=size[1])
-    except GeometryError:
-        return outline
-
-
-def _polygon_of(mark: Mark | None) -> list[float]:
-    assert mark is not None, "a cap has an outline or a mark"
-    return mark.points if isinstance(mark, Polygon) else polygon_of_shape(mark)
+    return written
 
 
 def _number_of_license(license_: dict[str, Any], licenses: list[dict[str, Any]]) -> int:

@@ -12,7 +12,7 @@ from fairyring.model.geometry.likeness import ROUNDING, are_alike, overlaps
 from fairyring.model.geometry.shapes import Polygon
 from fairyring.storage.db.rows import SELECT_ANNOTATIONS, annotation_of
 from fairyring.storage.db.schema import annotation
-from fairyring.storage.formats.coco_writing import written_outline
+from fairyring.storage.formats.coco_geometry import written_outline
 from fairyring.storage.formats.found import FoundCap
 from fairyring.storage.importing.photos import Photo
 from fairyring.storage.importing.recognising import (

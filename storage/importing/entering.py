@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 from uuid import uuid4
 
@@ -35,6 +36,8 @@ KeptNumbers = Mapping[str, Collection[int]]
 """Numbers, by table, of what was taken out and may come back."""
 CHUNK = 500
 """How many uids are asked for in one statement."""
+MOST_ROWS = 5000
+"""How many rows are made and added at once."""
 
 
 class Labelled(Struct, frozen=True, kw_only=True):
@@ -103,8 +106,7 @@ def enter_annotations(
     """Adds annotations and their first journal rows, but for those whose uid is there already."""
     ids = _category_ids(connection, labelled, categories)
     owners = _owners(connection, [cap.uid or "" for item in labelled for cap in item.caps])
-    annotations: list[dict[str, Any]] = []
-    edits: list[dict[str, Any]] = []
+    new: list[tuple[Photo, FoundCap, str]] = []
     time, sets, name = now(), ChangeSets(connection, user=user), f"import-{uuid4().hex}"
     numbers: dict[int, int] = {}
     for photo, cap in _pairs(labelled):
@@ -114,24 +116,32 @@ def enter_annotations(
             continue
         owners[uid] = photo.id
         numbers[photo.id] = sets.number(photo.id, name, time=time)
-        annotations.append(
+        new.append((photo, cap, uid))
+
+    def annotation_of(photo: Photo, cap: FoundCap, uid: str) -> dict[str, Any]:
+        return (
             values_of_cap(cap.cap, categories=ids)
             | values_of_annotation_fit(Fit(whole=cap.whole, centre=cap.centre, centre_sd=cap.centre_sd))
             | {"uid": uid, "image": photo.id, "revision": 1, "deleted": False, "extra": cap.extra}
-            | {"edited_by": user, "edited_at": time, "id": cap.id}
+            | {"edited_by": user, "edited_at": time}
         )
-        edits.append(
+
+    def edit_of(photo: Photo, cap: FoundCap, uid: str) -> dict[str, Any]:
+        assert photo.id is not None, "photos are entered before their caps"
+        return (
             {"id": f"import-{uid}", "digest": "import", "annotation": uid, "image": photo.id, "base": 0}
             | {"revision": 1, "before": None, "after": cap.cap, "user": user, "made_at": time}
             | {"change_set": numbers[photo.id]}
         )
-    _insert_numbered(connection, schema.annotation, annotations, kept=kept)
-    insert_many(connection, schema.edit, edits)
+
+    wanted = [cap.id for _, cap, _ in new]
+    _insert_numbered(connection, schema.annotation, wanted, lambda nth: annotation_of(*new[nth]), kept=kept)
+    _insert(connection, schema.edit, (edit_of(*each) for each in new))
     recount(connection, numbers)
     for image, number in numbers.items():
         follow_edits(connection, image, number, takes_back=False, user=user)
     total = sum(len(item.caps) for item in labelled)
-    return Entered(new=len(annotations), known=total - len(annotations))
+    return Entered(new=len(new), known=total - len(new))
 
 
 def enter_predictions(
@@ -144,26 +154,29 @@ def enter_predictions(
 ) -> Entered:
     """Adds a run's predictions, but for those that it holds already."""
     ids = _category_ids(connection, labelled, categories)
-    rows: list[dict[str, Any]] = []
     table = schema.prediction
     present = {
         (image, uid)
         for image, uid in connection.execute(select(table.c.image, table.c.uid).where(table.c.run == run_id))
     }
+    new: list[tuple[Photo, FoundCap]] = []
     for photo, cap in _pairs(labelled):
-        if (photo.id, cap.uid) in present:
-            continue
-        present.add((photo.id, cap.uid or ""))
-        rows.append(
+        if (photo.id, cap.uid) not in present:
+            present.add((photo.id, cap.uid or ""))
+            new.append((photo, cap))
+
+    def row_of(photo: Photo, cap: FoundCap) -> dict[str, Any]:
+        return (
             values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
-            | {"id": cap.id}
         )
-    _insert_numbered(connection, table, rows, kept=kept)
+
+    wanted = [cap.id for _, cap in new]
+    _insert_numbered(connection, table, wanted, lambda nth: row_of(*new[nth]), kept=kept)
     saw(connection, run_id=run_id, image_ids=[item.photo.id for item in labelled if item.photo.id])
     total = sum(len(item.caps) for item in labelled)
-    return Entered(new=len(rows), known=total - len(rows))
+    return Entered(new=len(new), known=total - len(new))
 
 
 def refused_as_prediction(cap: FoundCap) -> str | None:
@@ -178,23 +191,29 @@ def refused_as_prediction(cap: FoundCap) -> str | None:
 def _insert_numbered(
     connection: Connection,
     table: Table,
-    rows: Sequence[dict[str, Any]],
+    wanted: Sequence[int | None],
+    row_of: Callable[[int], dict[str, Any]],
     *,
     kept: KeptNumbers,
     lowest: int = 1,
 ) -> None:
-    """Adds rows under the ids that their files give them, where these are free."""
-    wanted = [row["id"] for row in rows]
+    """Adds rows under the ids that their files give them, where these are free.
+
+    ``row_of`` makes the nth of them, without its id.
+    """
     numbers = free_numbers(connection, table, wanted, lowest=lowest, kept=kept.get(table.name, ()))
-    numbered = [row | {"id": number} for row, number in zip(rows, numbers, strict=True) if number is not None]
-    others = [
-        {name: value for name, value in row.items() if name != "id"}
-        for row, number in zip(rows, numbers, strict=True)
-        if number is None
-    ]
-    insert_many(connection, table, numbered)
+    places = range(len(numbers))
+    _insert(
+        connection, table, (row_of(nth) | {"id": numbers[nth]} for nth in places if numbers[nth] is not None)
+    )
     count_on(connection, table)
-    insert_many(connection, table, others)
+    _insert(connection, table, (row_of(nth) for nth in places if numbers[nth] is None))
+
+
+def _insert(connection: Connection, table: Table, rows: Iterator[dict[str, Any]]) -> None:
+    """So many at a time that they are never all in memory."""
+    while some := list(islice(rows, MOST_ROWS)):
+        insert_many(connection, table, some)
 
 
 def _pairs(labelled: Iterable[Labelled]) -> Iterator[tuple[Photo, FoundCap]]:
@@ -207,8 +226,9 @@ def _category_ids(
     """The ids of all categories by name, once those of the files and of their caps are entered."""
     ids = load_categories(connection)
     new = {name: found for name, found in categories.items() if name not in ids}
-    rows = [{"id": found.id, "name": name, "extra": found.extra} for name, found in new.items()]
-    _insert_numbered(connection, schema.category, rows, kept={}, lowest=0)
+    rows = [{"name": name, "extra": found.extra} for name, found in new.items()]
+    wanted = [found.id for found in new.values()]
+    _insert_numbered(connection, schema.category, wanted, rows.__getitem__, kept={}, lowest=0)
     ids = load_categories(connection)
     for name in sorted({cap.cap.category for _, cap in _pairs(labelled)}):
         ensure_category(connection, name, categories=ids)

@@ -190,6 +190,8 @@ def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None
     taking.caps.setdefault(nth, []).extend(caps)
     taking.usable[str(document.path)] += len(caps)
     taking.problems.extend(problems)
+    # Kept as they were in the file, too, all caps would be in memory twice.
+    image.caps.clear()
 
 
 def _note_split(taking: _Taking, nth: int, split: str | None) -> None:

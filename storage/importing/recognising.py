@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from fairyring.model.geometry.likeness import overlaps
 from fairyring.model.geometry.shapes import Outline, polygon_of_shape
-from fairyring.storage.formats.coco_writing import written_outline
+from fairyring.storage.formats.coco_geometry import written_outline
 from fairyring.storage.formats.found import FoundCap
 from fairyring.storage.records import Annotation
 

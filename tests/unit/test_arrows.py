@@ -46,7 +46,7 @@ DRAWINGS = {
         contour  predict
         network  coco  colour
         geometry  photo  device  json_files  json_values
-        errors  progress  light_and_form  splits  whole_files  processes
+        errors  progress  light_and_form  splits  whole_files  processes  garbage
     """,
 }
 OTHER_PACKAGES = {
@@ -54,6 +54,7 @@ OTHER_PACKAGES = {
     "storage": (
         *("model.coco", "model.geometry", "model.json_files", "model.json_values"),
         *("model.photo", "model.errors", "model.progress", "model.light_and_form", "model.splits"),
+        *("model.processes", "model.garbage"),
     ),
     "model": (),
 }

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, fit_of_shape
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
-from fairyring.storage.formats.coco_writing import annotation_entry
+from fairyring.storage.formats.coco_geometry import geometry_keys
+from fairyring.storage.formats.coco_writing import annotation_entry, drawn
 from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.importing.photos import Photo
@@ -122,8 +123,10 @@ caps = st.builds(
 def written_and_read(stored):
     """The caps as the entries of a file give them back; numbered to tell them apart."""
     annotations = [Annotation(uid=f"cap_{n}", image=1, revision=1, cap=cap) for n, cap in enumerate(stored)]
+    geometry = geometry_keys([drawn(each) for each in annotations], size=(100, 80))
     entries = [
-        annotation_entry(a, number=n, size=(100, 80), category=1) for n, a in enumerate(annotations, start=1)
+        annotation_entry(a, keys, number=n, category=1)
+        for n, (a, keys) in enumerate(zip(annotations, geometry, strict=True), start=1)
     ]
     document = {
         "images": [{"id": 1, "file_name": "bed.png", "width": 100, "height": 80}],
