@@ -77,5 +77,8 @@ def _read(out: Path) -> None:
 
 
 def _datumaro(out: Path) -> None:
+    # It goes by the names of folders and files.
+    (out / "annotations").mkdir(exist_ok=True)
+    (out / "instances.json").replace(out / "annotations" / "instances_default.json")
     program = "import sys, datumaro; len(datumaro.Dataset.import_from(sys.argv[1], 'coco'))"
     subprocess.run([sys.executable, "-c", program, str(out)], check=True, capture_output=True)

@@ -233,7 +233,9 @@ def partial_(
     weights: Weights = None,
     beds: Beds = None,
     count: Count = None,
-    real: Real = None,
+    real: Annotated[
+        Path | None, typer.Option(help="Folder of photos with checked.json, in place of rendered beds.")
+    ] = None,
     labelled: Annotated[int, typer.Option(min=1, help="Caps that are labelled.")] = 3,
     iterations: Annotated[int, typer.Option(min=1, help="Of each training.")] = 30,
     device: OnDevice = Device.auto,
@@ -244,7 +246,7 @@ def partial_(
 
     Nothing that is learnt is kept.
 
-    Example: `fairyring bench network partial --real photos --count 2`
+    Example: `fairyring bench network partial --real photos`
     """
     from fairyring.app.bench.network.partly_labelled import Lesson, partly_labelled_rows
     from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
@@ -259,8 +261,10 @@ def partial_(
     )
     rows: list[dict[str, Any]] = []
     with _folder(beds) as kept, _folder(None) as folder, shown_on_stderr() as progress:
-        sets = [rendered(name, kept, count=count, progress=progress) for name in TEST_BEDS]
-        for photos in [*sets, *([] if real is None else [checked(real)])]:
+        sets = [checked(real)] if real else []
+        for name in () if real else TEST_BEDS:
+            sets.append(rendered(name, kept, count=count, progress=progress))
+        for photos in sets:
             rows += partly_labelled_rows(lesson, photos, folder=folder, progress=progress)
     print_rows("partial", rows, as_json=as_json)
 

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from fairyring.model.coco.annotations import rectangle
+from fairyring.model.coco.annotations import own_id, rectangle
 from fairyring.model.geometry.shapes import Circle, Outline, Polygon
 from fairyring.model.json_files import parse_json
-from fairyring.model.json_values import ValueRefusedError, kept, number, numbers, size
+from fairyring.model.json_values import ValueRefusedError, kept, number, numbers, size, text
 from fairyring.storage.cap_validity import MAX_NAME
 from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
@@ -26,7 +26,7 @@ from fairyring.storage.formats.fractions import require_pixels
 from fairyring.storage.formats.labelme_masks import outline_of_png
 from fairyring.storage.records import Cap, Mark
 
-SHAPE_KEYS = {"label", "points", "group_id", "shape_type", "mask"}
+SHAPE_KEYS = {"label", "points", "group_id", "shape_type", "mask", "id", "uid"}
 OUTLINES = ("polygon", "ellipse")
 """Types whose points are the vertices of a rim, where there are three and more."""
 BOXES = ("rectangle", "rotation", "oriented_rectangle")
@@ -86,6 +86,9 @@ class _Shape:
         self.where = where
         self.label = label
         self.group = group if type(group) in (int, str) else None
+        # Not labelme's own; it keeps them where whoever wrote the file has put them there.
+        self.uid = text(entry.get("uid"))
+        self.id = own_id(entry)
         kind = entry.get("shape_type") or "polygon"
         self.is_polygon = kind in OUTLINES
         self.is_box = kind in BOXES
@@ -159,6 +162,8 @@ def _cap(group: list[_Shape], polygons: Polygons) -> FoundCap:
     is_box = any(shape.is_box for shape in group)
     return FoundCap(
         where=group[0].where,
+        uid=group[0].uid,
+        id=group[0].id if isinstance(group[0].id, int) else None,
         cap=Cap(
             visible=parts,
             mark=marks[0] if marks else None,

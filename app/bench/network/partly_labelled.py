@@ -17,6 +17,7 @@ from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.seen import Detection
 from fairyring.model.progress import Progress, silent
+from fairyring.model.train.divergence import DivergenceError
 from fairyring.storage.importing.intake import Facts
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project
@@ -55,9 +56,13 @@ def partly_labelled_rows(
         rows.append(_row(photos.name, learnt, before, before, said="start"))
         for status, words in SAID.items():
             work = folder / f"{photos.name}-{learnt.photos[0].stem}-{status}".replace(" ", "-")
-            weights = _trained(lesson, learnt, work, status=status, progress=progress)
-            after = _figures(lesson, weights, others, progress)
-            rows.append(_row(photos.name, learnt, after, before, said=f"{lesson.caps} caps, {words}"))
+            said = f"{lesson.caps} caps, {words}"
+            try:
+                weights = _trained(lesson, learnt, work, status=status, progress=progress)
+                after = _figures(lesson, weights, others, progress)
+            except DivergenceError:
+                after, said = {}, f"{said}: stopped, as its loss ran away"
+            rows.append(_row(photos.name, learnt, after, before, said=said))
     return rows
 
 
@@ -116,6 +121,6 @@ def _row(
         "set": name,
         "learnt_from": learnt.photos[0].name,
         "labelled": said,
-        **{key: round(figures[key], 4) for key in FIGURES},
-        "S50_change": round(figures["S50"] - before["S50"], 4),
+        **{key: round(figures[key], 4) if figures else None for key in FIGURES},
+        "S50_change": round(figures["S50"] - before["S50"], 4) if figures else None,
     }

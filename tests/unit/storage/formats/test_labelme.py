@@ -110,3 +110,12 @@ def test_unknown_keys_are_kept():
 def test_what_is_no_labelme_file_is_named(keys, reason):
     with pytest.raises(StoreError, match=reason):
         parse(**keys)
+
+
+def test_a_shape_keeps_the_numbers_that_somebody_wrote_beside_it():
+    square = [[10, 10], [30, 10], [30, 30], [10, 30]]
+    shape = {"label": "mushroom", "points": square, "shape_type": "polygon", "id": 12, "uid": "cap-12"}
+    document = {"shapes": [shape], "imagePath": "bed.png", "imageWidth": 100, "imageHeight": 80}
+    (image,) = parse_labelme(json.dumps(document).encode(), file="f.json").images
+    (cap,) = image.caps
+    assert (cap.id, cap.uid, cap.extra) == (12, "cap-12", {})

@@ -207,3 +207,14 @@ def test_two_caps_of_one_file_that_overlap_are_two(beds, write_coco, square):
     file = write_coco([{"segmentation": square}, {"segmentation": moved(square, 0.5)}])
     assert import_paths(beds, [file]).annotations == 2
     assert import_paths(beds, [file]).known == 2
+
+
+def test_a_cap_that_a_tool_has_copied_with_all_its_keys_is_another_cap(beds, write_coco, square):
+    other = [[x + 40 for x in square[0]]]
+    entries = [
+        {"segmentation": square, "uid": "one", "id": 5},
+        {"segmentation": other, "uid": "one", "id": 5},
+    ]
+    assert import_paths(beds, [write_coco(entries)]).annotations == 2
+    again = import_paths(beds, [write_coco(entries)])
+    assert (again.annotations, again.known, again.changed) == (0, 2, 0)
