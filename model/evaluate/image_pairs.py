@@ -48,25 +48,31 @@ def partners_of(
     truths: Mapping[str, ImageEntry], predicted: Mapping[str, ImageEntry]
 ) -> tuple[dict[str, ImageEntry], Pairing]:
     """The predicted image of each true one, by the keys of ``named_images``; and what found no partner."""
-    partners: dict[str, ImageEntry] = {}
-    renamed: dict[str, str] = {}
+    true_paths = {key: _path(image) for key, image in truths.items()}
     by_base: defaultdict[str, list[str]] = defaultdict(list)
     for key in truths:
         by_base[base_name(key)].append(key)
     known = PhotoNames(by_base)
-    free = dict(predicted)
-    # Names that are the same before those that only may be.
-    for key, image in sorted(predicted.items(), key=lambda item: base_name(item[0]) not in by_base):
+    exact: defaultdict[str, dict[str, str]] = defaultdict(dict)
+    likely: defaultdict[str, dict[str, str]] = defaultdict(dict)
+    for key, image in predicted.items():
         name = meant(base_name(key), known)
-        which = _nearest(key, [each for each in by_base.get(name or "", []) if each not in partners])
-        if which is None:
-            continue
-        partners[which] = image
-        del free[key]
-        if base_name(key) != base_name(which):
-            renamed[key] = which
-    unpredicted = [key for key in truths if key not in partners]
-    return partners, Pairing(unpredicted=unpredicted, unknown=list(free), renamed=renamed)
+        if name is not None:
+            (exact if base_name(key) in by_base else likely)[name][key] = _path(image)
+    partners: dict[str, str] = {}
+    # Names that are the same before those that only may be.
+    for said in (exact, likely):
+        for name, paths in said.items():
+            free = {each: true_paths[each] for each in by_base[name] if each not in partners}
+            partners |= _nearest_pairs(free, paths)
+    taken = set(partners.values())
+    renamed = {key: which for which, key in partners.items() if base_name(key) != base_name(which)}
+    pairing = Pairing(
+        unpredicted=[key for key in truths if key not in partners],
+        unknown=[key for key in predicted if key not in taken],
+        renamed=renamed,
+    )
+    return {which: predicted[key] for which, key in partners.items()}, pairing
 
 
 def named_images(images: Iterable[ImageEntry]) -> dict[str, ImageEntry]:
@@ -91,9 +97,21 @@ def _path(image: ImageEntry) -> str:
     return normalize("NFC", str(image.keys["file_name"]).replace("\\", "/"))
 
 
-def _nearest(key: str, others: list[str]) -> str | None:
-    """The one with the most folders in common, counted from the end; None where two are as near."""
-    shared = sorted(((_common_folders(key, each), each) for each in others), reverse=True)
+def _nearest_pairs(true_paths: Mapping[str, str], said_paths: Mapping[str, str]) -> dict[str, str]:
+    """Keys of paths of one base name that belong together, as each is nearest to the other."""
+    pairs: dict[str, str] = {}
+    free, left = dict(true_paths), dict(said_paths)
+    for key, path in said_paths.items():
+        which = _nearest(path, free)
+        if which is not None and _nearest(true_paths[which], left) == key:
+            pairs[which] = key
+            del free[which], left[key]
+    return pairs
+
+
+def _nearest(path: str, others: Mapping[str, str]) -> str | None:
+    """The key of the path with the most folders in common, counted from the end; None where two have."""
+    shared = sorted(((_common_folders(path, other), key) for key, other in others.items()), reverse=True)
     if not shared or (len(shared) > 1 and shared[0][0] == shared[1][0]):
         return None
     return shared[0][1]

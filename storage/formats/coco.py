@@ -75,11 +75,12 @@ def parse_coco(data: bytes, *, file: str) -> Found:
     images = _images(document, faults) if document.images is not None else _images_of_results(document)
     caps = _caps(document, images, categories, faults)
     require_pixels(cap for of_image in caps.values() for cap in of_image)
+    named = _categories(categories, faults)
     return Found(
         file=file,
         images=[structs.replace(image, caps=caps.get(own, [])) for own, image in images.items()],
         problems=[Problem(file, fault.where, fault.reason) for fault in faults],
-        categories=_categories(categories, faults),
+        categories=named,
         labels=len(document.annotations),
         all_scored=_all_scored(caps),
     )

@@ -67,7 +67,7 @@ def compare(connection: Connection, photo: Photo, caps: Sequence[FoundCap]) -> C
     size = photo.width, photo.height
     live = [each for each in annotations if not each.deleted]
     dead = {each.uid: each for each in annotations if each.deleted}
-    again = [cap for cap in found if cap.uid in dead]
+    again = [(cap, dead[cap.uid]) for cap in found if cap.uid is not None and cap.uid in dead]
     found = [cap for cap in found if cap.uid not in dead]
     which = recognised(
         [trait_of_found(cap) for cap in found],
@@ -76,15 +76,25 @@ def compare(connection: Connection, photo: Photo, caps: Sequence[FoundCap]) -> C
         height=photo.height,
     )
     pairs = [(cap, live[nth]) for cap, nth in zip(found, which, strict=True) if nth is not None]
+    unknown = [cap for cap, nth in zip(found, which, strict=True) if nth is None]
+    left = [each for each in dead.values() if each.uid not in {known.uid for _, known in again}]
+    gone_before = recognised(
+        [trait_of_found(cap) for cap in unknown],
+        [trait_of_annotation(each, number=numbers[each.uid], size=size) for each in left],
+        width=photo.width,
+        height=photo.height,
+        least_iou=DOUBLE,
+    )
+    again += [(cap, left[nth]) for cap, nth in zip(unknown, gone_before, strict=True) if nth is not None]
     changes = [_change(connection, cap, known, size) for cap, known in pairs]
     met = {known.uid for _, known in pairs}
     return Compared(
         photo=photo,
         caps=caps,
-        new=[cap for cap, nth in zip(found, which, strict=True) if nth is None],
+        new=[cap for cap, nth in zip(unknown, gone_before, strict=True) if nth is None],
         same=doubled + changes.count(None),
         changed=[change for change in changes if change is not None],
-        deleted=[Change(annotation=dead[cap.uid or ""], cap=cap.cap) for cap in again],
+        deleted=[Change(annotation=known, cap=_taken_over(cap, known.cap, size)) for cap, known in again],
         gone=[each for each in live if each.uid not in met and not each.cap.ignored],
         revisions={each.uid: each.revision for each in annotations},
     )

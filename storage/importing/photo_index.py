@@ -11,6 +11,7 @@ from fairyring.model.coco.photo_names import PhotoNames
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundImage
 from fairyring.storage.importing.photos import Photo, folders_of, show_the_same
+from fairyring.storage.originals import digest_of_file
 
 MOST_NAMED = 4
 """Images that a message lists."""
@@ -33,6 +34,8 @@ class PhotoIndex:
 
         Of one base name, files with the same bytes are one photo, and so are those that show the same, as
         programs save photos anew; all others are another photo, from another folder.
+
+        Raises StoreError where another one of that name, in other letters, lies in the same folder.
         """
         alike = self.called(photo.file_name)
         for nth in alike:
@@ -41,6 +44,13 @@ class PhotoIndex:
         for nth in alike:
             if photo.source is not None and self._show_the_same(self.photos[nth], photo, photo.source):
                 return nth
+        for nth in alike:
+            beside = self.photos[nth].source
+            if beside is not None and photo.source is not None and beside.parent == photo.source.parent:
+                raise StoreError(
+                    f"{photo.source}: Beside it lies another photo of the same name, written in other "
+                    "letters; rename one of them."
+                )
         return self._append(photo)
 
     def called(self, base_name: str) -> list[int]:
@@ -99,8 +109,11 @@ class PhotoIndex:
     def _show_the_same(self, known: Photo, photo: Photo, source: Path) -> bool:
         if (known.width, known.height) != (photo.width, photo.height):
             return False
-        file = self._folder / known.path if known.path is not None else known.source
-        return file is not None and show_the_same(file, source)
+        if known.path is None:
+            return known.source is not None and show_the_same(known.source, source)
+        file = self._folder / known.path
+        # Where the file was replaced since, it tells nothing of the photo that was imported.
+        return file.exists() and digest_of_file(file) == known.sha256 and show_the_same(file, source)
 
     def _folders_shared(self, nth: int, written: Sequence[str]) -> int:
         """How many folders before a name are the same; more than all where the file says all there are."""

@@ -153,7 +153,7 @@ def _read(file: Path, sources: Sources, *, kind: ImportFormat, polygons: Polygon
         sources.documents.append(Document(path=file, sha256=sha256(data).hexdigest(), found=found))
     except FormatError as error:
         other = other_kind_of_json(text)
-        if other is None and not named:
+        if other is None and not named and b'"annotations"' not in text:
             reason = "It was passed over: there are no labels in it that could be read."
             sources.problems.append(Problem(str(file), "", reason))
         else:

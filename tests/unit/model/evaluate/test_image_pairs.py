@@ -64,6 +64,24 @@ def test_an_exact_name_goes_before_one_that_only_may_be_meant() -> None:
     assert (found["unknown"], found["renamed"]) == (["0123abcd-c.png"], {})
 
 
+def test_which_of_two_is_meant_is_not_guessed_on_either_side() -> None:
+    two, one = of_images("x/a.png", "y/a.png", "b.png"), of_images("a.png", "b.png")
+    assert pairing(two, one) == {
+        "unpredicted": ["a.png"],
+        "unknown": ["x/a.png", "y/a.png"],
+        "renamed": {},
+        "matched": 1,
+    }
+    uploads = of_images("0123abcd-b.png", "4567abcd-b.png", "a.png")
+    assert pairing(uploads, one)["unknown"] == ["0123abcd-b.png", "4567abcd-b.png"]
+
+
+@pytest.mark.parametrize("names", [("x/a.png", "y/a.png"), ("y/a.png", "x/a.png")])
+def test_the_folder_that_only_one_side_needs_decides(names: tuple[str, str]) -> None:
+    found = pairing(of_images(*names), of_images("beds/y/a.png"))
+    assert (found["unknown"], found["unpredicted"], found["matched"]) == (["x/a.png"], [], 1)
+
+
 @pytest.mark.parametrize(
     ("predicted", "said"),
     [

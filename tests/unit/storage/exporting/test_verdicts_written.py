@@ -31,3 +31,15 @@ def test_verdicts_are_written_and_survive_a_second_project(beds, square, tmp_pat
     again = json.loads((tmp_path / "again" / "instances.json").read_text())
     (same,) = [each for each in again["annotations"] if each["uid"] == "cap"]
     assert same["verdicts"] == cap["verdicts"]
+
+
+def test_an_export_that_comes_back_says_no_verdict_twice(beds, square, tmp_path):
+    one(beds, "e1", cap=Cap(visible=square))
+    commit(beds, [], verdicts=[Verdict(id="v1", image=1, says="approved")], user="rev")
+    export_coco(beds, tmp_path / "out")
+    import_paths(beds, [tmp_path / "out"])
+    export_coco(beds, tmp_path / "again")
+    again, before = (
+        json.loads((tmp_path / folder / "instances.json").read_text()) for folder in ("again", "out")
+    )
+    assert again["images"] == before["images"]

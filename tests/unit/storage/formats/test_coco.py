@@ -216,6 +216,13 @@ def test_a_category_with_keys_that_cannot_be_kept_is_still_a_category():
     assert len(found.images[0].caps) == 1
 
 
+def test_a_category_without_a_name_is_reported_also_where_no_cap_is_of_it():
+    categories = [{"id": 1, "name": "mushroom"}, {"id": 2, "name": 7}]
+    found = parse([{"segmentation": [SQUARE]}], categories=categories)
+    assert found.categories == {"mushroom": FoundCategory(id=1)}
+    assert reasons(found) == [("category 2", "The name of category 2 is no short line of text.")]
+
+
 def test_an_unknown_light_does_not_keep_the_image_out():
     found = parse(images=[{"id": 1, "file_name": "b.png", "light": "sun"}])
     assert found.images[0].light is None

@@ -11,7 +11,7 @@ from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.choices import Polygons
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing.paths import import_paths
-from tests.support.imported import annotations_of
+from tests.support.imported import annotations_of, reasons
 
 
 def test_a_folder_of_labelme_files_and_photos(project, tmp_path, write_photo):
@@ -111,3 +111,19 @@ def test_a_gzipped_file_of_labels_is_one_and_another_archive_is_refused(
     (tmp_path / "photos.tar.gz").write_bytes(b"")
     with pytest.raises(StoreError, match="is an archive"):
         import_paths(beds, [tmp_path / "photos.tar.gz"])
+
+
+def test_a_file_of_labels_that_holds_them_wrongly_is_no_stray_file(beds, tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    (folder / "settings.json").write_text('{"theme": "dark"}')
+    labels = folder / "labels.json"
+    labels.write_text('{"images": [], "annotations": {"1": {}}}')
+    with pytest.raises(StoreError, match="Nothing was imported"):
+        import_paths(beds, [folder])
+    report = import_paths(beds, [folder, beds.images / "bed_1.png"])
+    assert report.useless == [str(labels)]
+    assert reasons(report) == [
+        "This is not a COCO file: its annotations are not a list.",
+        "It was passed over: there are no labels in it that could be read.",
+    ]

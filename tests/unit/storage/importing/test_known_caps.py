@@ -218,3 +218,27 @@ def test_a_cap_that_a_tool_has_copied_with_all_its_keys_is_another_cap(beds, wri
     assert import_paths(beds, [write_coco(entries)]).annotations == 2
     again = import_paths(beds, [write_coco(entries)])
     assert (again.annotations, again.known, again.changed) == (0, 2, 0)
+
+
+def test_a_cap_that_somebody_deleted_stays_so_whatever_another_tool_calls_it(three, out, tmp_path):
+    beds, _ = three
+    (first, *_) = annotations_of(beds)
+    changed = Cap(visible=moved(first.cap.visible, 2), mark=Circle(30, 40, 12))
+    edit = Edit(id="moved", annotation=first.uid, image=1, base=1, cap=changed)
+    commit(beds, [Derived(edit=edit)], user="ann")
+    elsewhere = as_cvat(export(beds, out, only="all"))
+    commit(
+        beds,
+        [Derived(edit=Edit(id="gone", annotation=first.uid, image=1, base=2, cap=None))],
+        user="ann",
+    )
+    file = tmp_path / "back" / "cvat.json"
+    file.parent.mkdir()
+    file.write_text(json.dumps(elsewhere))
+    report = import_paths(beds, [file], known_caps=KnownCaps.update)
+    assert (report.annotations, report.known, report.edits) == (0, 3, 0)
+    assert len(outlines(beds)) == 2
+    report = import_paths(beds, [file], known_caps=KnownCaps.replace)
+    assert (report.annotations, report.edits) == (0, 1)
+    (back,) = [each for each in annotations_of(beds) if each.uid == first.uid]
+    assert back.cap == changed

@@ -1,5 +1,7 @@
 """Photos of one base name in several folders: two images, each with its own labels."""
 
+from unicodedata import normalize
+
 import cv2
 import numpy as np
 import pytest
@@ -118,3 +120,32 @@ def test_it_leads_anywhere_in_a_folder_that_was_named(project, tmp_path, write_p
     )
     report = import_paths(project, [file.parents[2]])
     assert (report.images, report.annotations, reasons(report)) == (1, 1, [])
+
+
+def test_two_photos_of_one_name_in_other_letters_are_told_and_the_rest_goes_in(
+    project, tmp_path, write_photo
+):
+    composed, decomposed = (normalize(form, "b\u00e9d.png") for form in ("NFC", "NFD"))
+    write_photo(tmp_path / "in" / composed, seed=1)
+    write_photo(tmp_path / "in" / decomposed, seed=2)
+    if len(list((tmp_path / "in").iterdir())) == 1:
+        pytest.skip("This file system knows one name only.")
+    write_photo(tmp_path / "in" / "other.png", seed=3)
+    report = import_paths(project, [tmp_path / "in"])
+    assert (report.images, reasons(report)) == (
+        2,
+        ["Beside it lies another photo of the same name, written in other letters; rename one of them."],
+    )
+
+
+def test_a_photo_like_one_that_was_put_in_the_place_of_another_is_another_image(
+    project, tmp_path, write_photo, write_coco
+):
+    import_paths(project, [write_photo(tmp_path / "first" / "bed.png", seed=1)])
+    labels = write_coco([{"segmentation": TRIANGLE}], images=[{"id": 1, "file_name": "bed.png"}])
+    other = write_photo(labels.parent / "bed.png", seed=2)
+    (project.images / "bed.png").write_bytes(other.read_bytes())
+    report = import_paths(project, [labels])
+    assert (report.images, report.annotations) == (1, 1)
+    assert names_of(project) == ["bed.png", "labels/bed.png"]
+    assert annotations_of(project, image=1) == []
