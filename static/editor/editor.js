@@ -4,7 +4,7 @@
  * @module
  */
 
-import { isPrediction } from "./geometry/shapes.js";
+import { goingIn } from "./going.js";
 import { Fingers } from "./input/fingers.js";
 import { tightened } from "./input/actions/tightening.js";
 import { bringFocusBack, keepFocusInPanel } from "./input/focus.js";
@@ -17,6 +17,7 @@ import { Opening } from "./opening.js";
 import { performer } from "./performing.js";
 import { expose } from "./probe.js";
 import { Reviewing } from "./reviewing.js";
+import { receiver } from "./receiving.js";
 import { Frame } from "./render/frame.js";
 import { Photos } from "./render/photos.js";
 import { EditorState } from "./state/editor_state.js";
@@ -32,7 +33,6 @@ import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
 import { nameFields } from "./ui/field_names.js";
 import { hintIn } from "./ui/hint.js";
-import { showJob } from "./ui/job_lines.js";
 import { noticesIn } from "./ui/notices.js";
 import { legendIn } from "./ui/legend.js";
 import { listenToPanel, pressedButtons } from "./ui/panel.js";
@@ -76,6 +76,8 @@ export class Editor {
   #found;
   #reviewing;
   #perform;
+  #going;
+  #receive;
   #pressed = () => {};
   #window = aboutWindow(() => this.#transport.send(this.#window()));
 
@@ -86,6 +88,7 @@ export class Editor {
   constructor(host, url) {
     const send = (/** @type {ToServer} */ message) => this.#send(message);
     const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
+    this.#going = goingIn(state, send);
     this.#transport = new Transport(url, {
       hello: (token) => ({ type: "hello", token, image: state.image?.id ?? firstAddress()?.image ?? null }),
       message: (message) => this.#receiveInOrder(message),
@@ -99,7 +102,7 @@ export class Editor {
       progress: () => this.#progress(),
       refused: (edit, reason) => this.#refusals.tell(edit, reason),
       ...travelIn(state, {
-        open: (image) => this.#open(image, null),
+        open: (image) => this.#going.open(image, null),
         say: (text, level) => this.#say(text, level),
       }),
     });
@@ -124,7 +127,7 @@ export class Editor {
     this.#say = noticesIn(host);
     this.#refusals = new Refusals({
       say: this.#say,
-      show: (image, uid) => this.#showCap(image, uid),
+      show: (image, uid) => this.#going.showCap(image, uid),
       image: () => state.image?.id ?? 0,
       redraw: () => state.signals.overlay.emit(),
     });
@@ -132,7 +135,7 @@ export class Editor {
     this.#liveFit = new LiveFit(state, { send, told: captionIn(host) });
     this.#conflicts = new ConflictDialog(host, {
       resolve: (conflict, whose) => this.#sync.resolve(conflict, whose),
-      show: ({ image, uid }) => this.#showCap(image, uid),
+      show: ({ image, uid }) => this.#going.showCap(image, uid),
     });
     const tool = () => this.#toolbox.tool;
     this.#pressed = pressedButtons(() => ({ tool: tool().name, status: state.image?.status ?? null }));
@@ -174,8 +177,20 @@ export class Editor {
       reviewing: this.#reviewing,
       send,
       say: (text) => this.#say(text),
-      toggle: (layer) => this.#toggle(layer),
+      toggle: (layer) => state.layers.toggle(layer),
       askScore: () => threshold.ask(),
+    });
+    this.#receive = receiver({
+      state,
+      sync: this.#sync,
+      reviewing: this.#reviewing,
+      liveFit: this.#liveFit,
+      found: this.#found,
+      opening: this.#opening,
+      perform: this.#perform,
+      say: this.#say,
+      user: () => this.#user,
+      progress: () => this.#progress(),
     });
     this.#listen(host, pointer);
     hint(tool().name);
@@ -210,7 +225,7 @@ export class Editor {
     listenToPanel({
       perform: this.#perform,
       use: (name) => this.#toolbox.use(name),
-      open: (image, select) => this.#open(image, select),
+      open: (image, select) => this.#going.open(image, select),
       takeBack: (image, changeSet) => {
         state.commitDrafts();
         this.#sync.takeBack(image, changeSet);
@@ -228,8 +243,8 @@ export class Editor {
     bringFocusBack(host);
     keepFocusInPanel();
     showProgress(state);
-    keepPlace(state, (image, cap) => this.#open(image, cap));
-    state.signals.selection.listen(() => this.#tellSelection());
+    keepPlace(state, (image, cap) => this.#going.open(image, cap));
+    state.signals.selection.listen(() => this.#going.tellSelection());
     state.signals.nudge.listen(() => this.#progress());
     new ResizeObserver(([entry]) => state.viewport.resize(entry.contentRect)).observe(host);
     window.addEventListener("beforeunload", (event) => {
@@ -244,33 +259,6 @@ export class Editor {
     const sent = this.#transport.send(message);
     if (message.type === "step" || message.type === "open") this.#opening.ask(sent);
     return sent;
-  }
-
-  /** @type {(image: number, select: string | null) => void} */
-  #open(image, select) {
-    const state = this.#state;
-    state.commitDrafts();
-    if (image !== state.image?.id) this.#send({ type: "open", image, select });
-    else if (select) state.select([select], { reveal: true });
-  }
-
-  /** @type {(image: number, uid: string) => void} */
-  #showCap(image, uid) {
-    const state = this.#state;
-    if (image !== state.image?.id) this.#open(image, uid);
-    else if (state.items.get(uid)) {
-      state.select([uid]);
-      state.reveal({ close: true });
-    }
-  }
-
-  #tellSelection() {
-    const { selected } = this.#state;
-    this.#transport.send({
-      type: "select",
-      annotations: selected.flatMap((shape) => (isPrediction(shape) ? [] : shape.uid)),
-      predictions: selected.flatMap((shape) => (isPrediction(shape) ? (shape.cap.prediction ?? []) : [])),
-    });
   }
 
   /** @type {(code: number, reason: string) => void} */
@@ -315,41 +303,6 @@ export class Editor {
     else if (this.#ready) void this.#ready.then(() => this.#receive(message));
   }
 
-  /** @type {(message: FromServer) => void} */
-  #receive(message) {
-    this.#sync.heard();
-    switch (message.type) {
-      case "show":
-        this.#opening.show(message);
-        this.#reviewing.ask();
-        return this.#progress();
-      case "outcomes":
-        this.#sync.receive(message.outcomes);
-        return this.#reviewing.ask();
-      case "compared":
-        return this.#reviewing.take(message);
-      case "status":
-        return this.#sync.statusChanged(message.image, message.status, message.user === this.#user);
-      case "recalled":
-        return this.#sync.recalled(message);
-      case "changed":
-        return this.#sync.changed(message.image, message.annotations);
-      case "predicted":
-        if (message.image === this.#state.image?.id) this.#state.predict(message.predictions);
-        return;
-      case "found_cap":
-        return this.#found.take(message);
-      case "fit":
-        return this.#liveFit.take(message);
-      case "progress":
-        return showJob(message);
-      case "command":
-        return void this.#perform(message.name);
-      case "notice":
-        return this.#say(message.text, message.level);
-    }
-  }
-
   /** @type {(welcome: import("./protocol.js").Welcome) => Promise<void>} */
   async #welcome({ project, user }) {
     this.#waiting = 0;
@@ -361,11 +314,5 @@ export class Editor {
       this.#sync.use(await openOutbox(project, () => this.#sync.adopted()));
     }
     this.#sync.resume();
-  }
-
-  /** @type {(layer: string) => void} */
-  #toggle(layer) {
-    const { layers } = this.#state;
-    layers.visible = { ...layers.visible, [layer]: !layers.visible[layer] };
   }
 }

@@ -12,7 +12,8 @@ const EDITOR = path.resolve(import.meta.dirname, "../../static/editor");
 const DRAWING = `
   main
   editor
-  opening  performing  probe
+  receiving
+  opening  performing  probe  going
   reviewing
   ui  input
   sync  render

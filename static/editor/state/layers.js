@@ -40,4 +40,9 @@ export class Layers {
     if (cap.ignored || (cap.visible.length > 0 && (outline || fill))) return true;
     return (wholes && (whole !== null || cap.mark !== null)) || (centres && centre !== null);
   }
+
+  /** Shows a layer that is hidden, hides one that is shown. @type {(name: string) => void} */
+  toggle(name) {
+    this.visible = { ...this.visible, [name]: !this.visible[name] };
+  }
 }

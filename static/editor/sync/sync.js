@@ -6,12 +6,11 @@
  */
 
 import { newId } from "../ids.js";
-import { backwards } from "../state/history.js";
 import { statusAfter } from "./edits.js";
 import { Local } from "./local.js";
 import { isOfCap, isOfStatus, isVerdict } from "./outbox.js";
-import { Recalling, changeSetOf } from "./recalling.js";
 import { decide, refuse, settle, takeNews } from "./settle.js";
+import { Travelling } from "./travelling.js";
 
 /** @typedef {import("../protocol.js").Annotation} Annotation */
 /** @typedef {import("../protocol.js").Outcome} Outcome */
@@ -26,7 +25,7 @@ import { decide, refuse, settle, takeNews } from "./settle.js";
 /** @typedef {import("./outbox.js").Outbox} Outbox */
 /** @typedef {"undo" | "redo"} Way */
 
-/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, changes: Change[], stayed: number}} Travelled */
+/** @typedef {import("./travelling.js").Travelled} Travelled */
 
 /**
  * @typedef {Object} Wires
@@ -43,18 +42,20 @@ const PATIENCE_MS = 15000;
 
 export class Sync {
   #local;
-  #recalling = new Recalling();
   /** The edits in flight, by id, as they were sent. @type {Map<string, Edit>} */
   #flying = new Map();
   #timer = 0;
   #wires;
-  /** The image whose status was the last thing changed here, and which came after it. @type {{image: number, next: number | null} | null} */
-  #finished = null;
+  #travelling;
 
   /** @param {Wires} wires */
   constructor(wires) {
     this.#wires = wires;
     this.#local = new Local(wires.store);
+    this.#travelling = new Travelling(this.#local, wires, {
+      carryOut: (image, changeSet, move) => this.#carryOut(image, changeSet, move),
+      pump: () => this.pump(),
+    });
   }
 
   get image() {
@@ -99,7 +100,7 @@ export class Sync {
   pause() {
     clearTimeout(this.#timer);
     this.#flying.clear();
-    if (this.#recalling.lost()) this.#wires.stuck("offline", "undo");
+    this.#travelling.lost();
   }
 
   /** The server is there: it has said something. */
@@ -128,8 +129,7 @@ export class Sync {
   commit(changes) {
     if (changes.length === 0) return;
     const id = newId();
-    this.#finished = null;
-    this.#recalling.drop();
+    this.#travelling.done(null);
     this.#local.historyOf(this.image).push({ ids: [id], changes, status: null });
     this.#carryOut(this.image, id, { takesBack: "", changes, status: null });
   }
@@ -139,8 +139,7 @@ export class Sync {
     const [id, before] = [newId(), this.status];
     if (before === after) return;
     const status = { before, after };
-    this.#finished = { image: this.image, next: null };
-    this.#recalling.drop();
+    this.#travelling.done(this.image);
     this.#local.historyOf(this.image).push({ ids: [id], changes: [], status });
     this.#carryOut(this.image, id, { takesBack: "", changes: [], status });
   }
@@ -158,8 +157,7 @@ export class Sync {
     const verdict = { id: newId(), image: this.image, annotation, says, words, change_set: changeSet };
     const after = statusAfter(before, [verdict]);
     if (before !== after) {
-      this.#finished = { image: this.image, next: null };
-      this.#recalling.drop();
+      this.#travelling.done(this.image);
       this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status: { before, after } });
     }
     this.#local.outbox.add([verdict]);
@@ -168,79 +166,21 @@ export class Sync {
 
   /** Takes back what was done last here; what this page does not remember the journal does. */
   undo() {
-    const image = this.#finished?.image ?? this.image;
-    this.#finished = null;
-    this.#travel("undo", image);
+    this.#travelling.undo();
   }
 
   redo() {
-    this.#finished = null;
-    this.#travel("redo", this.image);
-  }
-
-  /** @type {(way: Way, image: number) => void} */
-  #travel(way, image) {
-    const local = this.#local;
-    const id = newId();
-    const move = local.historyOf(image)[way](id, (uid) => local.current(uid));
-    if (!move) return this.#ask({ image, way, change_set: null });
-    const overtaken = move.status && move.status.before !== local.statusOf(image);
-    const possible = overtaken ? { ...move, status: null } : move;
-    if (possible.changes.length === 0 && !possible.status) return this.#travel(way, image);
-    this.#carryOut(image, id, possible);
-    this.#wires.travelled({ image, changes: move.changes, stayed: 0 });
+    this.#travelling.redo();
   }
 
   /** Takes back a change set of the image's history, whoever made it. @type {(image: number, changeSet: number) => void} */
   takeBack(image, changeSet) {
-    this.#finished = null;
-    this.#ask({ image, way: "undo", change_set: changeSet });
-  }
-
-  /** @type {(question: import("./recalling.js").Question) => void} */
-  #ask(question) {
-    this.#recalling.ask(question);
-    if (!this.pump()) {
-      this.#recalling.lost();
-      this.#wires.stuck("offline", question.way);
-    }
+    this.#travelling.takeBack(image, changeSet);
   }
 
   /** The journal has answered. @type {(recalled: Recalled) => void} */
   recalled(recalled) {
-    const question = this.#recalling.answered();
-    if (question?.image === this.image) {
-      if (recalled.reversal) this.#takeBack(recalled.reversal, question.way, question.change_set !== null);
-      else this.#wires.stuck("nothing", question.way);
-    }
-    this.pump();
-  }
-
-  /** Asks the journal, unless this page has come to remember what is asked. @returns {boolean} false where it cannot */
-  #askJournal() {
-    const question = this.#recalling.first;
-    if (question?.change_set === null && this.#local.historyOf(question.image).depth[question.way]) {
-      this.#recalling.skip();
-      this.#travel(question.way, question.image);
-      return true;
-    }
-    return this.#recalling.next(this.#wires.send);
-  }
-
-  /** @type {(reversal: import("../protocol.js").Reversal, way: Way, anew: boolean) => void} */
-  #takeBack(reversal, way, anew) {
-    const local = this.#local;
-    for (const { annotation } of reversal.returns) local.confirmed.put(annotation);
-    const set = changeSetOf(reversal);
-    const move = backwards(set, (uid) => local.current(uid));
-    const id = newId();
-    const history = local.historyOf(this.image);
-    if (anew) history.push({ ids: [id], changes: move.changes, status: move.status });
-    else if (way === "undo") history.wasUndone({ ...set, ids: [...set.ids, id] });
-    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status });
-    if (move.changes.length || move.status)
-      this.#carryOut(this.image, id, anew ? { ...move, takesBack: "" } : move);
-    this.#wires.travelled({ image: this.image, changes: move.changes, stayed: reversal.changed_since });
+    this.#travelling.recalled(recalled);
   }
 
   /** @type {(image: number, changeSet: string, move: Move) => void} */
@@ -256,7 +196,7 @@ export class Sync {
     progress();
     if (this.#flying.size) return true;
     const edits = outbox.head();
-    if (edits.length === 0) return this.#askJournal();
+    if (edits.length === 0) return this.#travelling.askJournal();
     const [statuses, verdicts] = [edits.filter(isOfStatus), edits.filter(isVerdict)];
     if (!send({ type: "edits", edits: edits.filter(isOfCap), statuses, verdicts })) return false;
     this.#flying = new Map(edits.map((edit) => [edit.id, edit]));
@@ -273,10 +213,7 @@ export class Sync {
    */
   open(image, annotations, unchecked) {
     this.#local.open(image, annotations, unchecked);
-    const finished = this.#finished;
-    if (!finished || (finished.next === null && image.id === finished.image)) return;
-    if (finished.next === null) finished.next = image.id;
-    else if (image.id !== finished.next) this.#finished = null;
+    this.#travelling.opened(image.id);
   }
 
   /** What became of edits that were sent. @type {(outcomes: Outcome[]) => void} */

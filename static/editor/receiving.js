@@ -1,0 +1,54 @@
+import { showJob } from "./ui/job_lines.js";
+
+/** @typedef {import("./protocol.js").FromServer} FromServer */
+
+/**
+ * @typedef {Object} Parts
+ * @property {import("./state/editor_state.js").EditorState} state
+ * @property {import("./sync/sync.js").Sync} sync
+ * @property {import("./reviewing.js").Reviewing} reviewing
+ * @property {import("./sync/live_fit.js").LiveFit} liveFit
+ * @property {import("./sync/cap_requests.js").CapRequests} found
+ * @property {import("./opening.js").Opening} opening
+ * @property {(name: string) => boolean} perform
+ * @property {(text: string, level: "info" | "warning" | "error") => void} say
+ * @property {() => string} user  whose page this is
+ * @property {() => void} progress  shows what waits, and the status
+ */
+
+/** Hands what the server says to whom it concerns. @type {(parts: Parts) => (message: FromServer) => void} */
+export function receiver({ state, sync, reviewing, liveFit, found, opening, perform, say, user, progress }) {
+  return (message) => {
+    sync.heard();
+    switch (message.type) {
+      case "show":
+        opening.show(message);
+        reviewing.ask();
+        return progress();
+      case "outcomes":
+        sync.receive(message.outcomes);
+        return reviewing.ask();
+      case "compared":
+        return reviewing.take(message);
+      case "status":
+        return sync.statusChanged(message.image, message.status, message.user === user());
+      case "recalled":
+        return sync.recalled(message);
+      case "changed":
+        return sync.changed(message.image, message.annotations);
+      case "predicted":
+        if (message.image === state.image?.id) state.predict(message.predictions);
+        return;
+      case "found_cap":
+        return found.take(message);
+      case "fit":
+        return liveFit.take(message);
+      case "progress":
+        return showJob(message);
+      case "command":
+        return void perform(message.name);
+      case "notice":
+        return say(message.text, message.level);
+    }
+  };
+}
