@@ -1,30 +1,77 @@
-"""Keys of other programs that say where a cap is or how it looks: no longer true once it was edited."""
+"""Keys of other programs that an edit makes untrue: where a cap is, how it looks, who has looked at it."""
 
 from __future__ import annotations
 
 import re
 from typing import Any
 
-GEOMETRIC = re.compile(
+OF_THE_SHAPE = re.compile(
     "bbox|box|segm|mask|rle|poly|contour|outline|point|area|perimeter|cent[er]{2}|centroid|radius|diamet"
-    "|ellipse|circle|axis|axes|angle|rotat|theta|width|height|size|shape|circular|eccentric|solidity"
-    "|amodal|visib|hidden|occlu|truncat|fraction|coverage|refusal|iou|^source$",
+    "|ellipse|circle|axis|axes|angle|rotat|orient|theta|width|height|size|shape|circular|eccentric|solidity"
+    "|aspect|convex|concav|compact|elongat|feret|moment|hull|skelet|landmark|silhouette|bitmap|coord|vert(ex|ices)"
+    "|corner|rect|crop|thumb|pixel|amodal|visib|hidden|occlu|truncat|overlap|fraction|coverage|refusal|iou|dice"
+    "|embed|histogram|updated|modified|verif|review|approv|validat|^source$",
     re.IGNORECASE,
 )
-"""Parts of their names."""
+"""Parts of names of what is derived from a shape, and of what is said of one as it was."""
+MEASURED = re.compile(
+    "score|confid|probab|logit|certain|stabil|error|deviat|length|breadth|thick|distance|diagonal|extent"
+    "|position|locat|direction|heading|tilt|skew|curv|rough|smooth|roundness|feature|border|bound|edge|ratio|intens"
+    "|bright|luminan|contrast|texture|mean|median|std|varian|depth|surface|volume",
+    re.IGNORECASE,
+)
+"""Parts of names that are a measurement where a number stands for them; a word may be somebody's own."""
+SHORT = {
+    *(
+        "x",
+        "y",
+        "w",
+        "h",
+        "r",
+        "cx",
+        "cy",
+        "dx",
+        "dy",
+        "rx",
+        "ry",
+        "xmin",
+        "xmax",
+        "ymin",
+        "ymax",
+        "xc",
+        "yc",
+    ),
+    *("left", "top", "right", "bottom", "major", "minor", "px", "mm", "cm", "yaw", "pitch", "roll", "hu"),
+}
+"""Whole words in names, likewise."""
+WORD = re.compile("[A-Z]?[a-z]+|[A-Z]+")
 FEWEST_COORDINATES = 4
 """A list of so many numbers is taken for a box or an outline, whatever it is called."""
 
 
 def without_geometry(keys: dict[str, Any]) -> dict[str, Any]:
-    """The keys, at any depth, that hold nothing of a cap's geometry, by their names and by what they hold."""
+    """The keys, at any depth, that still hold after an edit, by their names and by what they hold."""
     kept = {}
     for key, value in keys.items():
         rest = without_geometry(value) if isinstance(value, dict) else value
         emptied = rest == {} and value != {}
-        if not GEOMETRIC.search(key) and not emptied and not _holds_coordinates(value):
+        if not _tells_of_the_shape(key, value) and not emptied and not _holds_coordinates(value):
             kept[key] = rest
     return kept
+
+
+def _tells_of_the_shape(key: str, value: Any) -> bool:
+    if OF_THE_SHAPE.search(key):
+        return True
+    words = {word.lower() for word in WORD.findall(key)}
+    return _is_measured(value) and (MEASURED.search(key) is not None or not words.isdisjoint(SHORT))
+
+
+def _is_measured(value: Any) -> bool:
+    """Whether it is a number or a list of them."""
+    if isinstance(value, list):
+        return bool(value) and all(map(_is_measured, value))
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _holds_coordinates(value: Any) -> bool:

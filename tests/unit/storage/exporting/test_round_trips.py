@@ -6,17 +6,21 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fairyring.model.geometry.raster import mask_of_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, fit_of_shape
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_geometry import geometry_keys
 from fairyring.storage.formats.coco_writing import annotation_entry, drawn
+from fairyring.storage.images import get_image, set_light_and_form
 from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.importing.photos import Photo
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Annotation, Cap, Edit
+from fairyring.storage.splits import set_splits
+from fairyring.storage.statuses import set_status
 from tests.support.exported import SQUARE, TRIANGLE, export, store
 
 
@@ -161,3 +165,40 @@ def flat(cap):
 
 def vars_of(shape):
     return (getattr(shape, name) for name in shape.__struct_fields__)
+
+
+def test_status_split_light_and_form_of_images_survive(beds, out, tmp_path):
+    said = {1: ("new", "train"), 2: ("annotated", "val"), 3: ("approved", None)}
+
+    def say(connection):
+        set_splits(connection, {number: split for number, (_, split) in said.items()})
+        for number, (status, _) in said.items():
+            set_status(connection, number, status, user="ann")
+            set_light_and_form(connection, number, light="dark", form="h")
+
+    beds.write(say)
+    export(beds, out, only="all")
+    with create_project(tmp_path / "other") as other:
+        import_paths(other, [out])
+        with other.read() as connection:
+            images = [get_image(connection, number) for number in said]
+    assert {image.id: (image.status, image.split) for image in images} == said
+    assert {(image.light, image.form) for image in images} == {("dark", "h")}
+
+
+def test_of_one_state_every_export_is_the_same_byte_for_byte(beds, out, tmp_path):
+    store(beds, Cap(visible=[SQUARE]))
+    export(beds, out)
+    export(beds, tmp_path / "again")
+    assert (out / "instances.json").read_bytes() == (tmp_path / "again" / "instances.json").read_bytes()
+
+
+def test_the_whole_outline_holds_the_visible_one(beds, out):
+    """Its polygon is united with what is seen, and the circle in its own key stays exact."""
+    store(beds, Cap(visible=[SQUARE]), whole=Circle(20, 20, 10))
+    (annotation,) = export(beds, out)["annotations"]
+    visible = mask_of_outline(annotation["segmentation"], width=100, height=80)
+    whole = mask_of_outline(annotation["amodal_segmentation"], width=100, height=80)
+    assert (visible & ~whole).sum() == 0
+    assert whole.sum() == visible.sum() == 400
+    assert annotation["circle"] == [20, 20, 10]
