@@ -13,6 +13,7 @@ from fairyring.model.geometry.shapes import Circle
 from fairyring.model.network.weights import load_weights
 from fairyring.storage.exporting import export_coco
 from fairyring.storage.project import Project
+from fairyring.storage.splits import set_splits
 from fairyring.storage.statuses import set_status
 from tests.support.terminal import sentence, train
 from tests.unit.app.conftest import circle
@@ -204,3 +205,17 @@ def test_every_photo_of_a_project_is_in_the_record_with_its_reason(labelled: Pro
         "bed_3": "without labels",
     }
     assert all(len(entry["sha256"]) == 64 for entry in said)
+
+
+def test_training_on_a_project_obeys_its_splits_and_says_so(
+    labelled: Project, recipe: Path, tmp_path: Path
+) -> None:
+    annotate(labelled, 3, uid="three", visible=circle(60, 60, 25))
+    labelled.write(lambda connection: set_splits(connection, {1: "train", 2: "val", 3: "test"}))
+    labelled.write(lambda connection: set_status(connection, 2, "annotated", user="Ada"))
+    done = train(labelled.folder, tmp_path / "run", "--config", recipe, "--json")
+    assert done.exit_code == 0, done.output
+    assert "validates on 1. Left out: 1 kept for tests." in done.stderr
+    record = json.loads((tmp_path / "run" / "labels.json").read_bytes())
+    used = {each["file_name"][:5]: each.get("used", each.get("left_out")) for each in record["images"]}
+    assert used == {"bed_1": "learnt", "bed_2": "validated", "bed_3": "kept for tests"}
