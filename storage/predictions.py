@@ -34,6 +34,8 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
     visible: Outline
     score: float
     """Score, 0 to 1."""
+    quality: float | None = None
+    """Expected IoU of the outline with the visible cap, 0 to 1; None where it is not known."""
     category: str = DEFAULT_CATEGORY
     fit: Fit = Fit()
     uid: str | None = None
@@ -153,7 +155,7 @@ def add_predictions(
 
     Raises:
         GeometryError: an outline cannot be used.
-        StoreError: no such image, or a score outside 0…1.
+        StoreError: no such image, or a score or quality outside 0…1.
     """
     photo = require_image(connection, image_id)
     categories = load_categories(connection)
@@ -202,12 +204,15 @@ def _values(
 ) -> dict[str, Any]:
     if not are_finite([new.score]) or not 0 <= new.score <= 1:
         raise StoreError(f"A score lies between 0 and 1, not at {new.score}.")
+    if new.quality is not None and not 0 <= new.quality <= 1:
+        raise StoreError(f"A quality lies between 0 and 1, not at {new.quality}.")
     cap = check_cap(Cap(visible=new.visible, category=new.category), width=width, height=height)
     return {
         "uid": new.uid or uuid4().hex,
         "category": ensure_category(connection, new.category, categories=categories),
         "visible": cap.visible,
         "score": float(new.score),
+        "quality": new.quality,
         "extra": new.extra,
         **values_of_fit(new.fit),
     }

@@ -92,6 +92,8 @@ class Prediction(Struct, frozen=True, kw_only=True):
     image: int
     visible: Outline
     score: float
+    quality: float | None = None
+    """Expected IoU of the outline with the visible cap; None where nobody said."""
     category: str = DEFAULT_CATEGORY
     whole: Shape | None = None
     centre: tuple[float, float] | None = None

@@ -67,9 +67,20 @@ class Finder(Protocol):
         """All other settings that decide what it finds."""
         ...
 
-    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
-        """Score and visible outline of every cap in a photo (height, width, 3) uint8 RGB."""
+    def find(self, photo: Pixels) -> list[SeenCap]:
+        """Every cap in a photo (height, width, 3) uint8 RGB."""
         ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeenCap:
+    """A cap that was found in a photo."""
+
+    score: float
+    outline: Outline
+    """Visible outline."""
+    quality: float | None = None
+    """Expected IoU of the outline with the visible cap; None where it is not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,10 +104,10 @@ class ByColour:
         said = {} if self.diameter is None else {"diameter": self.diameter}
         return {"method": self.method} | said
 
-    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
-        """Score and outline of every cap; the score is no probability."""
+    def find(self, photo: Pixels) -> list[SeenCap]:
+        """Every cap; the score is no probability."""
         found = find_caps(photo, self.method, diameter=self.diameter)
-        return [(each.score, each.outline) for each in found]
+        return [SeenCap(score=each.score, outline=each.outline) for each in found]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,10 +123,10 @@ class Network:
     diameter: float | None
     """How wide the photos' middling caps are, pixels; None: looked for in each photo."""
 
-    def find(self, photo: Pixels) -> list[tuple[float, Outline]]:
-        """Score and outline of every cap."""
+    def find(self, photo: Pixels) -> list[SeenCap]:
+        """Every cap."""
         found = detect_at_its_scale(self.predictor, photo, diameter=self.diameter)
-        return [(detection.score, detection.outline) for detection in found]
+        return [SeenCap(score=each.score, outline=each.outline, quality=each.quality) for each in found]
 
 
 @dataclass(kw_only=True)
@@ -267,25 +278,23 @@ def predictions_in(
     """What is seen in the photo at ``path``, and the statistics by which its caps were fitted."""
     rgb = np.ascontiguousarray(photo.read(path)[:, :, ::-1])
     found = [
-        (score, outline)
-        for score, seen in finder.find(rgb)
-        if (outline := usable_outline(seen, width=image.width, height=image.height))
+        replace(seen, outline=outline)
+        for seen in finder.find(rgb)
+        if (outline := usable_outline(seen.outline, width=image.width, height=image.height))
     ]
-    fits, statistics = compute(fitted_anew, image, [outline for _, outline in found])
-    new = [
-        _prediction(nth, score, outline, fit)
-        for nth, ((score, outline), fit) in enumerate(zip(found, fits, strict=True))
-    ]
+    fits, statistics = compute(fitted_anew, image, [seen.outline for seen in found])
+    new = [_prediction(nth, seen, fit) for nth, (seen, fit) in enumerate(zip(found, fits, strict=True))]
     return new, statistics
 
 
-def _prediction(nth: int, score: float, outline: Outline, fit: Fit) -> NewPrediction:
+def _prediction(nth: int, seen: SeenCap, fit: Fit) -> NewPrediction:
     spread = fit.centre_sd
     return NewPrediction(
         # By its place, so that the same photo seen twice by one run is stored once.
         uid=f"network-{nth}",
-        visible=outline,
-        score=min(max(score, 0.0), 1.0),
+        visible=seen.outline,
+        score=min(max(seen.score, 0.0), 1.0),
+        quality=seen.quality,
         fit=fit,
         extra={"center_sd": [round(sd, 4) for sd in spread]} if spread else {},
     )

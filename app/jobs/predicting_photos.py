@@ -68,6 +68,7 @@ def _entries(finder: Finder, path: Path, image: Image, *, first: int) -> Iterato
             image=image.id,
             visible=new.visible,
             score=new.score,
+            quality=new.quality,
             whole=new.fit.whole,
             centre=new.fit.centre,
             extra=new.extra,

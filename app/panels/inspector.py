@@ -133,9 +133,21 @@ def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
         ("Centre", _point(prediction.centre)),
         ("Whole", _shape(prediction.whole)),
         ("Score", f"{prediction.score:.3f}"),
+        *_quality(prediction),
         ("Run", run_badge(run) if run else "unknown"),
     ]
     return card(element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete"))
+
+
+def _quality(prediction: Prediction) -> Facts:
+    if prediction.quality is None:
+        return []
+    figure = element(
+        "span",
+        f"{prediction.quality:.2f} IoU expected",
+        title="How well its outline is likely to match what is visible of the cap",
+    )
+    return [("Quality", figure)]
 
 
 def summary(caps: ImageCaps) -> Markup:

@@ -15,6 +15,8 @@ Our own keys of an annotation, beside COCO's:
 ``amodal_segmentation``
     The whole outline as a polygon, united with what is visible; one alone, without circle or ellipse, is
     taken as a marked polygon.
+``quality``
+    Beside a ``score``: the IoU that a prediction's outline is expected to have with the visible cap, 0 to 1.
 ``doubt``, ``ignored``, ``ignore``, ``order``, ``uid``
     Flags, overlap order, and the annotation's own number.
 ``refusal``

@@ -131,6 +131,17 @@ def score_of(entry: Entry) -> float | None:
     return None if entry.get("score") is None else number(entry["score"], "Its score")
 
 
+def quality_of(entry: Entry) -> float | None:
+    """The expected IoU of a prediction's outline with what is visible; None without.
+
+    Others may mean something else by the word: it counts beside a score alone, and between 0 and 1.
+    """
+    quality = entry.get("quality")
+    if score_of(entry) is None or isinstance(quality, bool) or not isinstance(quality, int | float):
+        return None
+    return float(quality) if 0 <= quality <= 1 else None
+
+
 def box_of(entry: Entry) -> tuple[float, float, float, float] | None:
     """Its bbox: x, y, width and height, pixels."""
     if entry.get("bbox") is None:

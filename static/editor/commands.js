@@ -167,8 +167,8 @@ export default {
     { "name": "broom", "key": "B", "words": "Broom: delete the caps that the pointer runs over" }
   ],
   "gestures": [
-    { "gesture": "Wheel · pinch", "words": "Zoom to the pointer" },
-    { "gesture": "Drag the ground · middle or right drag · two fingers", "words": "Move the view" },
+    { "gesture": "Wheel", "words": "Zoom to the pointer" },
+    { "gesture": "Drag the ground · middle or right drag", "words": "Move the view" },
     { "gesture": "Click · again", "words": "Select · what lies under it" },
     { "gesture": "Shift-click", "words": "Add to the selection, or take from it" },
     { "gesture": "Shift-drag to the right · to the left", "words": "Select all inside · all that is touched" },

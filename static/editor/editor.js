@@ -7,7 +7,7 @@
 import { goingIn } from "./going.js";
 import { Fingers } from "./input/fingers.js";
 import { tightened } from "./input/actions/tightening.js";
-import { bringFocusBack, keepFocusInPanel } from "./input/focus.js";
+import { bringFocusBack } from "./input/focus.js";
 import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { RimSuggestion } from "./input/rim_suggestion.js";
@@ -241,7 +241,6 @@ export class Editor {
     nameFields();
     takePhotos(host, this.#say);
     bringFocusBack(host);
-    keepFocusInPanel();
     showProgress(state);
     keepPlace(state, (image, cap) => this.#going.open(image, cap));
     state.signals.selection.listen(() => this.#going.tellSelection());

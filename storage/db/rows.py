@@ -72,6 +72,7 @@ def prediction_of(row: AnyRow) -> Prediction:
         image=row.image,
         visible=row.visible,
         score=row.score,
+        quality=row.quality,
         category=row.category_name,
         whole=row.whole,
         centre=_centre_of(row),

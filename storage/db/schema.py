@@ -100,6 +100,7 @@ prediction = Table(
     Column("category", Integer, ForeignKey("category.id"), nullable=False),
     Column("visible", Json(Outline), nullable=False),
     Column("score", Real, nullable=False),
+    Column("quality", Real),
     Column("whole", Json(Shape)),
     Column("centre_x", Real),
     Column("centre_y", Real),

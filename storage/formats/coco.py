@@ -23,6 +23,7 @@ from fairyring.model.coco.annotations import (
     order_of,
     outline_of_box,
     own_id,
+    quality_of,
     score_of,
     segmentation_of,
     shape_of,
@@ -192,6 +193,9 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
         segmentation = None
     box = None if segmentation is not None or mark is not None else outline_of_box(entry)
     extra = _others(entry, OWN_ANNOTATION_KEYS if "marked" in entry else ANNOTATION_KEYS)
+    quality = quality_of(entry)
+    if quality is not None:
+        extra.pop("quality")
     if isinstance(mark, Polygon) and shape is None:
         extra.pop("amodal_segmentation", None)
     return FoundCap(
@@ -205,6 +209,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
             category=category,
         ),
         score=score_of(entry),
+        quality=quality,
         marked=marked,
         whole=shape,
         centre=centre_of(entry),

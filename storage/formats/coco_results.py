@@ -23,6 +23,7 @@ def result_entry(prediction: Prediction, *, size: tuple[int, int], category: int
         "category_id": category,
         "segmentation": rle,
         "score": prediction.score,
+        **({} if prediction.quality is None else {"quality": prediction.quality}),
         "bbox": rounded(bounds_of_outline(outline)),
         "area": area_of_rle(rle),
     }

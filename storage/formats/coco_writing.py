@@ -69,9 +69,10 @@ def annotation_entry(
 def prediction_entry(
     prediction: Prediction, geometry: dict[str, Any], *, number: int, category: int
 ) -> dict[str, Any]:
-    """The entry of a prediction, with its score; the rest as for ``annotation_entry``."""
+    """The entry of a prediction, with its score and quality; the rest as for ``annotation_entry``."""
     entry = geometry | {"image_id": prediction.image, "category_id": category, "iscrowd": 0}
     entry |= {"score": prediction.score}
+    entry |= {} if prediction.quality is None else {"quality": prediction.quality}
     entry |= centre_keys(prediction.centre, visibility=RECONSTRUCTED) | {"marked": False}
     return {"id": number} | prediction.extra | entry
 

@@ -27,6 +27,8 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     where: str
     cap: Cap
     score: float | None = None
+    quality: float | None = None
+    """Expected IoU of its outline with the visible cap, as a machine said."""
     marked: bool = True
     """Whether a person placed its shape and centre, rather than a machine."""
     whole: Shape | None = None

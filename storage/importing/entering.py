@@ -170,6 +170,7 @@ def enter_predictions(
             values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score, "extra": cap.extra}
+            | {"quality": cap.quality}
         )
 
     wanted = [cap.id for _, cap in new]

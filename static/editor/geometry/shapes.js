@@ -52,7 +52,7 @@ function doubtOf({ whole, centre_sd }) {
 }
 
 /** @type {(prediction: Prediction) => Shape} */
-export function shapeOfPrediction({ id, visible, category, whole, centre, score, extra }) {
+export function shapeOfPrediction({ id, visible, category, whole, centre, score, quality, extra }) {
   return {
     uid: uidOfPrediction(id),
     cap: { visible, mark: null, ignored: false, doubtful: false, order: null, category, prediction: id },
@@ -62,7 +62,7 @@ export function shapeOfPrediction({ id, visible, category, whole, centre, score,
     centre,
     score,
     checked: false,
-    doubt: 1 - score,
+    doubt: 1 - (quality ?? score),
     sd: pairOf(extra.center_sd),
   };
 }

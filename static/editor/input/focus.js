@@ -90,39 +90,13 @@ function isOption(target) {
   return target instanceof Element && target.closest("[role=option]") !== null;
 }
 
-/** What is used in the panel tells by these which it is, also once it is drawn anew. @type {(element: HTMLElement) => string | null} */
-function selectorOf(element) {
-  const [name] = element.getAttributeNames().filter((each) => each.startsWith("data-fairyring-"));
-  return name ? `[${name}="${CSS.escape(element.getAttribute(name) ?? "")}"]` : null;
-}
-
-/** The panel is drawn anew whenever something in it changes; whoever has the focus there keeps it. */
-export function keepFocusInPanel() {
-  /** @type {HTMLElement | null} */
-  let last = null;
-  window.addEventListener("focusin", ({ target }) => {
-    last = target instanceof HTMLElement && !target.closest(EDITOR) ? target : null;
-  });
-  new MutationObserver(() => {
-    if (!last || last.isConnected || document.activeElement !== document.body) return;
-    const selector = selectorOf(last);
-    const found = selector ? [...document.querySelectorAll(selector)] : [];
-    const again = found.find((element) => element.checkVisibility()) ?? firstOfPanel();
-    if (again instanceof HTMLElement) again.focus({ preventScroll: true });
-  }).observe(document.body, { childList: true, subtree: true });
-}
-
 /** From the photo to the panel, or back. @type {(host: HTMLElement) => void} */
 export function switchFocus(host) {
   if (!document.activeElement?.closest(EDITOR) && document.activeElement !== document.body) {
     host.focus({ preventScroll: true });
     return;
   }
-  const first = firstOfPanel();
-  if (first instanceof HTMLElement) first.focus();
-}
-
-function firstOfPanel() {
   const found = [...document.querySelectorAll("[role=tab][aria-selected=true], [data-fairyring-command]")];
-  return found.find((element) => element.closest(EDITOR) === null && element.checkVisibility()) ?? null;
+  const first = found.find((element) => element instanceof HTMLElement && element.checkVisibility());
+  if (first instanceof HTMLElement) first.focus();
 }

@@ -181,11 +181,6 @@ export class Pointer {
   #wheel(event) {
     if (isChrome(event)) return;
     event.preventDefault();
-    if (!event.ctrlKey && isTrackpad(event)) {
-      this.#state.viewport.panBy(-event.deltaX, -event.deltaY);
-      this.#caused(event.timeStamp, "pan");
-      return;
-    }
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE_PX : 1);
     const speed = event.ctrlKey ? 6 * WHEEL_SPEED : WHEEL_SPEED;
     this.#state.viewport.zoomAt(...this.at, Math.exp(-pixels * speed));
@@ -197,17 +192,6 @@ export class Pointer {
     const cursor = this.#panning ? "grabbing" : this.panKey ? "grab" : this.#tool().cursor;
     if (this.#host.style.cursor !== cursor) this.#host.style.cursor = cursor;
   }
-}
-
-/**
- * Whether two fingers on a trackpad did it, rather than a wheel. A wheel tells of notches of 120; a trackpad of thirds of
- * what it scrolls by, and of both directions. A pinch comes with Ctrl.
- *
- * @type {(event: WheelEvent) => boolean}
- */
-function isTrackpad(event) {
-  if (event.deltaMode !== WheelEvent.DOM_DELTA_PIXEL) return false;
-  return event.deltaX !== 0 || Reflect.get(event, "wheelDeltaY") === -3 * event.deltaY;
 }
 
 /** Whether an event belongs to what lies over the photo. @type {(event: Event) => boolean} */

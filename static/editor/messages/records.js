@@ -85,6 +85,7 @@
  * @property {number} image
  * @property {Outline} visible
  * @property {number} score
+ * @property {number | null} quality
  * @property {string} category
  * @property {Whole | null} whole
  * @property {Point | null} centre

@@ -26,6 +26,15 @@ test("Space says that the selected one is right and goes on to the worst that is
   assert.deepEqual([...state.selection.uids], []);
 });
 
+test("where the quality of outlines is known, the worst is the one whose outline is least likely to be good", () => {
+  const scored = said([0.9, 0.4, 0.7]);
+  const qualities = [0.6, 0.95, 0.8];
+  const { state } = openState({ predictions: scored.map((one, i) => ({ ...one, quality: qualities[i] })) });
+  const met = [];
+  while (checkAndGoOn(state)) met.push(state.sole?.score);
+  assert.deepEqual(met, [0.9, 0.7, 0.4]);
+});
+
 test("a cap of a file is open until somebody says that it is right, which is an edit that changes nothing", () => {
   const { state, committed } = openState({ shapes: [imported("sure", 0.5), imported("unsure", 4)] });
   checkAndGoOn(state);

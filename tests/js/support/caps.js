@@ -24,7 +24,7 @@ export function triangle(x) {
 
 /** @type {(id: number, visible?: number[][]) => Prediction} */
 export function prediction(id, visible = [SQUARE]) {
-  const fields = { run: 1, image: 1, score: 0.9, category: "mushroom", whole: null, centre: null, extra: {} };
+  const fields = { run: 1, image: 1, score: 0.9, quality: null, category: "mushroom", whole: null, centre: null, extra: {} };
   return { id, visible, ...fields };
 }
 

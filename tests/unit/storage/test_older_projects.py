@@ -8,7 +8,7 @@ import pytest
 from alembic import command
 from sqlalchemy import Connection, text
 
-from fairyring.storage.contents import load_annotations
+from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.db.engine import connect_engine
 from fairyring.storage.db.upgrade import _config
 from fairyring.storage.image_history import list_change_sets, next_reversal
@@ -40,7 +40,9 @@ def older_project(folder: Path, revision: str, *statements: str) -> Path:
 
 def fill(connection: Connection) -> None:
     """One photo and one category."""
-    connection.execute(text("INSERT INTO project VALUES ('p', 'beds', '2026-03-01T11:00:00.000Z')"))
+    connection.execute(
+        text("INSERT INTO project (id, name, made_at) VALUES ('p', 'beds', '2026-03-01T11:00:00.000Z')")
+    )
     connection.execute(text("INSERT INTO category (name, extra) VALUES ('mushroom', '{}')"))
     connection.execute(
         text(
@@ -131,3 +133,17 @@ def test_statuses_sent_after_the_upgrade_have_numbers_beside_the_old_ones(upgrad
         with upgraded.read() as connection:
             ids = connection.execute(text("SELECT id FROM status_change ORDER BY sequence")).scalars()
             assert list(ids) == ["status-1", "s"]
+
+
+def test_of_predictions_from_before_the_upgrade_no_quality_is_known(tmp_path: Path) -> None:
+    older_project(
+        tmp_path / "beds",
+        "0006",
+        "INSERT INTO run (name, kind, made_at, settings) VALUES ('r', 'network', '2026-03-01', '{}')",
+        "INSERT INTO prediction (run, image, uid, category, visible, score, extra) "
+        "VALUES (1, 1, 'u', 1, '[[0,0,9,0,9,9]]', 0.75, '{}')",
+        "UPDATE image SET run = 1",
+    )
+    with open_project(tmp_path / "beds") as project, project.read() as connection:
+        (prediction,) = load_predictions(connection, 1)
+    assert (prediction.score, prediction.quality) == (0.75, None)

@@ -55,7 +55,7 @@ def test_there_may_be_no_run(project):
 
 def test_predictions_are_kept_as_they_were_made(beds, square):
     whole = Circle(20.5, 20.5, 12.0)
-    new = NewPrediction(visible=square, score=0.75, fit=fit_of_shape(whole), extra={"a": [1]})
+    new = NewPrediction(visible=square, score=0.75, quality=0.5, fit=fit_of_shape(whole), extra={"a": [1]})
 
     def work(connection):
         run = add_run(connection, name="r", kind="network")
@@ -65,7 +65,7 @@ def test_predictions_are_kept_as_they_were_made(beds, square):
     with beds.read() as connection:
         (stored,) = load_predictions(connection, 1)
         assert load_prediction(connection, stored.id) == stored
-    assert (stored.visible, stored.score, stored.whole) == (square, 0.75, whole)
+    assert (stored.visible, stored.score, stored.quality, stored.whole) == (square, 0.75, 0.5, whole)
     assert (stored.centre, stored.extra, stored.category) == ((20.5, 20.5), {"a": [1]}, "mushroom")
 
 
@@ -105,6 +105,17 @@ def test_the_same_predictions_again_add_nothing(beds, square):
 def test_a_score_lies_between_0_and_1(beds, square, score):
     with pytest.raises(StoreError, match="score lies between 0 and 1"):
         predict(beds, square, scores=(score,))
+
+
+@pytest.mark.parametrize("quality", [math.nan, math.inf, -0.1, 1.1])
+def test_a_quality_lies_between_0_and_1(beds, square, quality):
+    def work(connection):
+        run = add_run(connection, name="r", kind="network")
+        new = NewPrediction(visible=square, score=0.5, quality=quality)
+        return add_predictions(connection, run_id=run.id, image_id=1, predictions=[new])
+
+    with pytest.raises(StoreError, match="quality lies between 0 and 1"):
+        beds.write(work)
 
 
 @pytest.mark.parametrize("visible", [[], [[0.0, 0.0, 1.0, 1.0]], [[0.0, 0.0, math.nan, 1.0, 2.0, 2.0]]])

@@ -16,7 +16,8 @@ def mixed(beds):
     def predict(connection, name, images):
         run = add_run(connection, name=name, kind="simulated")
         for image in images:
-            new = [NewPrediction(visible=[TRIANGLE], score=0.5, fit=fit_of_shape(Circle(50, 46, 9)))]
+            fit = fit_of_shape(Circle(50, 46, 9))
+            new = [NewPrediction(visible=[TRIANGLE], score=0.5, quality=0.875, fit=fit)]
             add_predictions(connection, run_id=run.id, image_id=image, predictions=new)
 
     store(beds, Cap(visible=[SQUARE]))

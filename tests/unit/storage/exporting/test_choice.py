@@ -24,10 +24,11 @@ def test_what_is_exported_is_what_was_asked_for(mixed, out, only, files, scores)
     assert [annotation.get("score") for annotation in document["annotations"]] == scores
 
 
-def test_a_prediction_carries_its_score_centre_and_shape(mixed, out):
+def test_a_prediction_carries_its_score_quality_centre_and_shape(mixed, out):
     document = export(mixed, out, only="predicted")
     annotation = document["annotations"][-1]
     assert (annotation["score"], annotation["center"], annotation["circle"]) == (0.5, [50, 46], [50, 46, 9])
+    assert annotation["quality"] == 0.875
 
 
 def test_what_is_predicted_of_an_image_is_what_the_latest_run_that_saw_it_said(mixed, out):

@@ -70,6 +70,7 @@ def test_predictions_exported_and_imported_again_are_the_same(mixed, out, tmp_pa
             (mine,) = load_predictions(ours, 3)
             (copy,) = load_predictions(theirs, 3)
     assert (copy.visible, copy.score, copy.whole, copy.centre) == (mine.visible, 0.5, mine.whole, mine.centre)
+    assert (copy.quality, copy.extra.get("quality")) == (0.875, None)
 
 
 def test_extra_keys_and_licences_come_back(beds, tmp_path, out, write_coco):

@@ -27,6 +27,20 @@ def test_a_file_taken_as_predictions_is_a_run(beds, write_coco, square):
     assert (run.name, run.kind) == ("labels.json", "import")
 
 
+def test_what_others_call_quality_is_kept_and_is_none_of_ours(beds, write_coco, square):
+    file = write_coco(
+        [
+            {"segmentation": square, "score": 0.75, "quality": 0.5},
+            {"segmentation": TRIANGLE, "score": 0.75, "quality": 87},
+        ]
+    )
+    import_paths(beds, [file], as_="predictions")
+    with beds.read() as connection:
+        ours, theirs = load_predictions(connection, 1)
+    assert (ours.quality, ours.extra) == (0.5, {})
+    assert (theirs.quality, theirs.extra) == (None, {"quality": 87})
+
+
 def test_the_same_predictions_again_add_nothing(beds, write_coco, square):
     file = write_coco([{"segmentation": square, "score": 0.5}])
     first = import_paths(beds, [file], as_="predictions")
