@@ -32,19 +32,21 @@ def test_seams_belong_to_one_tile(width: int, height: int) -> None:
 def test_tiles_lie_in_the_photo_and_are_of_one_size(width: int, height: int) -> None:
     tiles = tiles_of(width, height)
     across, down = (LONGEST, SHORTEST) if width >= height else (SHORTEST, LONGEST)
-    assert {(tile.width, tile.height) for tile in tiles} == {(min(width, across), min(height, down))}
+    ((columns, rows),) = {(tile.width, tile.height) for tile in tiles}
+    assert columns <= min(width, across)
+    assert rows <= min(height, down)
     for tile in tiles:
         assert 0 <= tile.x <= width - tile.width
         assert 0 <= tile.y <= height - tile.height
 
 
 @settings(max_examples=150, deadline=None)
-@given(extents, extents, st.floats(0, 1), st.floats(0, 1), st.floats(1, OVERLAP))
+@given(extents, extents, st.tuples(*[st.floats(0.01, 1)] * 3), st.integers(32, OVERLAP))
 def test_a_cap_up_to_the_overlap_is_whole_in_its_own_tile(
-    width: int, height: int, across: float, down: float, diameter: float
+    width: int, height: int, shares: tuple[float, float, float], overlap: int
 ) -> None:
-    x, y, r = across * width, down * height, diameter / 2
-    (tile,) = [tile for tile in tiles_of(width, height) if tile.owns(x, y)]
+    x, y, r = shares[0] * width, shares[1] * height, shares[2] * overlap / 2
+    (tile,) = [tile for tile in tiles_of(width, height, overlap=overlap) if tile.owns(x, y)]
     # What the photo itself cuts off is no loss of the tile's.
     assert tile.x <= max(0, x - r)
     assert tile.y <= max(0, y - r)
@@ -62,9 +64,15 @@ def test_a_photo_of_the_usual_size_is_one_piece_and_one_twice_as_wide_three() ->
     assert len(tiles_of(1280, 720)) == len(tiles_of(720, 1280)) == 1
     assert len(tiles_of(1920, 1080)) == len(tiles_of(1080, 1920)) == 4
     left, middle, right = tiles_of(2560, 720)
-    assert (left.x, left.y, left.width, left.height) == (0, 0, 1280, 720)
-    assert (middle.x, right.x) == (640, 1280)
-    assert left.own[2] == middle.own[0] == 960
+    assert (left.x, left.y, left.width, left.height) == (0, 0, 1024, 720)
+    assert (middle.x, right.x) == (768, 1536)
+    assert left.own[2] == middle.own[0] == 896
+
+
+def test_an_enlarged_photo_is_cut_into_pieces_no_larger_than_they_must_be() -> None:
+    pieces = tiles_of(1920, 1080, overlap=116)
+    assert {(piece.width, piece.height) for piece in pieces} == {(1024, 640)}
+    assert [(piece.x, piece.y) for piece in pieces] == [(0, 0), (896, 0), (0, 440), (896, 440)]
 
 
 def test_no_more_tiles_than_needed() -> None:
