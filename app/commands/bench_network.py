@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
-    help="Measure a network, in eight tables.",
+    help="Measure a network, in ten tables.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
@@ -120,6 +120,68 @@ def clicks(
     if real is not None:
         rows += click_rows(predictor, checked(real))
     print_rows("clicks", rows, as_json=as_json)
+
+
+@commands.command()
+def quality(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    device: OnDevice = Device.auto,
+    fast: Fast = False,
+    as_json: AsJson = False,
+) -> None:
+    """How well the network knows how good its outlines are: rank correlations with the true IoU.
+
+    Example: `fairyring bench network quality --real photos --count 6`
+    """
+    from fairyring.app.bench.network.quality import quality_rows
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.app.jobs.predicting import network_of
+    from fairyring.model.predict.shipped import SHIPPED
+
+    passes = passes_of(fast=fast)
+    predictor = network_of(weights or SHIPPED, device=device, least_score=0, passes=passes).predictor
+    rows: list[dict[str, Any]] = []
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
+        for photos in [*sets, *([] if real is None else [checked(real)])]:
+            rows += quality_rows(predictor, photos, progress=progress)
+    print_rows("quality", rows, as_json=as_json)
+
+
+@commands.command()
+def wholes(
+    *,
+    weights: Weights = None,
+    beds: Beds = None,
+    count: Count = None,
+    real: Real = None,
+    widened: Annotated[
+        list[float] | None,
+        typer.Option(min=0.01, help="Factor on the network's standard deviations (repeat for more)."),
+    ] = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """Centres of hidden caps by the rim, by the network's ellipses, and by both, by share in sight.
+
+    Example: `fairyring bench network wholes --real photos --count 6 --widened 1 --widened 2`
+    """
+    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
+    from fairyring.app.bench.network.wholes import whole_rows
+    from fairyring.app.jobs.predicting import network_of
+    from fairyring.model.predict.shipped import SHIPPED
+
+    predictor = network_of(weights or SHIPPED, device=device).predictor
+    rows: list[dict[str, Any]] = []
+    with _folder(beds) as folder, shown_on_stderr() as progress:
+        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
+        for photos in [*sets, *([] if real is None else [checked(real)])]:
+            rows += whole_rows(predictor, photos, widened=widened or (1.0,), progress=progress)
+    print_rows("wholes", rows, as_json=as_json)
 
 
 @commands.command()

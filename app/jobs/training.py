@@ -29,6 +29,7 @@ from fairyring.model.train.checkpoint import CheckpointError
 from fairyring.model.train.circumstances import KEY
 from fairyring.model.train.loop import CARD, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
+from fairyring.model.train.second_look import with_second_look
 from fairyring.storage.folder import is_project
 
 IMAGENET = "imagenet"
@@ -164,20 +165,25 @@ def start_of(recipe: Recipe, weights: str | None) -> Start:
     Raises FairyringError where they cannot be had, or do not fit the recipe's network.
     """
     notes: dict[str, Any] = {"base": weights or IMAGENET}
+    if recipe.learns == "second look" and Path(weights or "").suffix != ".safetensors":
+        raise FairyringError("A second look is learnt on top of finished weights; name them with --weights.")
     if weights in (None, IMAGENET):
         _require_imagenet(recipe)
         return Start(recipe=recipe, base=None, notes=notes)
     if Path(weights).suffix in (".pth", ".pt"):
         return Start(recipe=recipe, base=_upon_backbone(recipe, Path(weights)), notes=notes)
     loaded = load_weights(Path(weights))
-    network = loaded.network.config
-    if recipe.network not in (network, NetworkConfig()):
+    base = loaded.network
+    if recipe.learns == "second look":
+        base = with_second_look(base, seed=recipe.seed)
+    network = base.config
+    if recipe.network not in (loaded.network.config, network, NetworkConfig()):
         raise FairyringError(
             f"{weights} holds a network of other settings than the recipe's; "
             f"leave them out of the recipe, or give --weights {IMAGENET}."
         )
     recipe = checked(structs.replace(recipe, network=network), where=f"The recipe for {weights}")
-    return Start(recipe=recipe, base=loaded.network, notes=notes | {"base": loaded.digest})
+    return Start(recipe=recipe, base=base, notes=notes | {"base": loaded.digest})
 
 
 def _require_imagenet(recipe: Recipe) -> None:

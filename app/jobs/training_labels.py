@@ -272,11 +272,13 @@ def _why_left_out(example: Example, item: _Labelled) -> str | None:
 
 
 def _example(item: _Labelled) -> Example:
+    learnt = [cap for cap in item.caps if _is_learnt(cap)]
     return Example(
         path=item.path,
         width=item.photo.width,
         height=item.photo.height,
-        caps=[cap.visible for cap in item.caps if _is_learnt(cap)],
+        caps=[cap.visible for cap in learnt],
+        wholes=[None if isinstance(cap.mark, Polygon) else cap.mark for cap in learnt],
         ignored=[_covered(cap) for cap in item.caps if not _is_learnt(cap)],
         complete=item.status is None or is_complete(item.status),
         light=item.photo.light,

@@ -6,10 +6,13 @@ terms of the log posterior that `harmonic.py` maximises. n caps, K rim points.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 
 Array = NDArray[np.floating]
 
@@ -28,6 +31,26 @@ BEYOND = 0.16
 """How far beyond a hidden corner of that hull a cap is expected to go, in radii …"""
 FAR_BEYOND = 0.3
 """… and from where on the corner counts less."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expected:
+    """Where n caps are expected to lie before their rims are looked at."""
+
+    mean: Array
+    """(n, 5): centre x, y, log r, u, v."""
+    precision: Array
+    """(n, 5, 5), of x/r, y/r, log r, u and v; 0 of caps of which nothing is expected."""
+
+
+def expected_of(likely: Sequence[LikelyEllipse | None]) -> Expected:
+    """What n ≥ 1 likely ellipses, as far as there are any, have one expect."""
+    mean, precision = np.zeros((len(likely), 5)), np.zeros((len(likely), 5, 5))
+    for nth, one in enumerate(likely):
+        if one is not None:
+            mean[nth] = one.parameters
+            precision[nth] = np.linalg.inv(np.array(one.covariance))
+    return Expected(mean, precision)
 
 
 def expected_reach(fill: Array) -> Array:

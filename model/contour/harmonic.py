@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.contour.expectation import corner_information, reach_of, roundness
+from fairyring.model.contour.expectation import Expected, corner_information, reach_of, roundness
 from fairyring.model.contour.priors import Priors
 from fairyring.model.contour.rims import Rims
 
@@ -70,6 +70,8 @@ class Evidence:
     """What log r of any cap of the image is expected to be."""
     size_precision: float
     """One over the variance of that, 0 where it is not known."""
+    expected: Expected
+    """Where the caps are expected to lie."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +137,19 @@ def _advance(now: Outlines, evidence: Evidence, priors: Priors, soft: float) -> 
     information = reach.slope * priors.size**-2
     curvature[:, 2:5, 2:5] += information[:, :, None] * reach.slope[:, None]
     pull[:, 2:5] -= information * (reach.log_radius - evidence.reach)[:, None]
+    curvature[:, :5, :5] += evidence.expected.precision
+    pull[:, :5] += _towards(evidence.expected, now)
     moved, step = _moved(now, np.linalg.solve(curvature, pull[..., None])[..., 0])
     return _Step(moved, residual - (step[:, None] @ slope)[:, 0], slope, curvature)
+
+
+def _towards(expected: Expected, now: Outlines) -> Array:
+    """(n, 5), how strongly what is expected pulls at the centre, log r, u and v."""
+    away = np.empty(expected.mean.shape)
+    away[:, :2] = (expected.mean[:, :2] - now.centre) / np.exp(now.log_radius)[:, None]
+    away[:, 2] = expected.mean[:, 2] - now.log_radius
+    away[:, 3:] = expected.mean[:, 3:] - now.shape[:, :2]
+    return (expected.precision @ away[..., None])[..., 0]
 
 
 def _linearised(points: Array, outlines: Outlines) -> tuple[Array, Array]:

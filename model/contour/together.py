@@ -17,7 +17,7 @@ import numpy as np
 
 from fairyring.model.contour.batch import first_caps
 from fairyring.model.contour.contact import NOBODY, Contact
-from fairyring.model.contour.expectation import corners_that_count, expected_reach
+from fairyring.model.contour.expectation import Expected, corners_that_count, expected_reach
 from fairyring.model.contour.harmonic import (
     Array,
     Estimate,
@@ -79,7 +79,7 @@ class Together:
         return relative * (radius * (1 + HIDDEN_DOUBT * (1 - self.coverage)))[:, None]
 
 
-def first_look(rims: Rims, contact: Contact, priors: Priors) -> Look:
+def first_look(rims: Rims, contact: Contact, expected: Expected, priors: Priors) -> Look:
     """Fits n ≥ 1 caps, each by itself."""
     around = enclosing_circles(rims, priors)
     own = np.where(contact.neighbour == NOBODY, contact.free, FIRST_GLANCE)
@@ -93,17 +93,25 @@ def first_look(rims: Rims, contact: Contact, priors: Priors) -> Look:
         stretch=priors.stretch * priors.stretch_hidden,
         size=0.0,
         size_precision=0.0,
+        expected=expected,
     )
     return Look(fit_outlines(evidence, around, priors, softness=FIRST_SOFTNESS), own)
 
 
 def next_look(
-    rims: Rims, contact: Contact, before: Look, statistics: Statistics, priors: Priors, *, caps: int
+    rims: Rims,
+    contact: Contact,
+    before: Look,
+    statistics: Statistics,
+    priors: Priors,
+    *,
+    expected: Expected,
 ) -> Look:
-    """Fits the first n = ``caps`` ≥ 1 of the caps given, by what the look before said of all of them.
+    """Fits the first n ≥ 1 of the caps given, by what the look before said of all of them.
 
-    All that those n meet must be among them.
+    All that those n meet must be among them; ``expected`` is of those n.
     """
+    caps = len(expected.mean)
     meetings = meetings_of(contact, rims, before.estimate, noise=statistics.noise)
     own = seen_share(contact, meetings)[:caps]
     rims, estimate = first_caps(rims, caps=caps), first_caps(before.estimate, caps=caps)
@@ -117,6 +125,7 @@ def next_look(
         stretch=statistics.stretch,
         size=statistics.size,
         size_precision=statistics.size_precision,
+        expected=expected,
     )
     return Look(fit_outlines(evidence, estimate.outlines, priors, softness=NEXT_SOFTNESS), own)
 

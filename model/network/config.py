@@ -40,6 +40,8 @@ class NetworkConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     point_channels: int = 128
     detail_channels: int = 16
     """Channels computed from the photo itself for PointRend's points, at stride 2; 0 as in the paper."""
+    second_look: int = 0
+    """Channels of the second look at found caps; 0 for none, as in the paper."""
 
     def cell(self, level: int) -> float:
         """Side of a cell of this level in photo pixels."""
@@ -64,8 +66,11 @@ MOST = {
     "kernel_channels": 2048,
     "point_channels": 2048,
     "detail_channels": 512,
+    "second_look": 512,
 }
-"""Largest sensible values of a description; all but ``detail_channels`` are at least 1."""
+"""Largest sensible values of a description."""
+OPTIONAL = ("detail_channels", "second_look")
+"""Those of which 0 means none; the others are at least 1."""
 FINEST_CELL = 4
 """Least photo pixels a side of a cell of a grid."""
 LARGEST_SIZE = 100_000
@@ -74,9 +79,11 @@ LARGEST_SIZE = 100_000
 def oddity(config: NetworkConfig) -> str | None:
     """What of a description makes no sense, in a few words; None where all of it does."""
     for name, most in MOST.items():
-        least = 0 if name == "detail_channels" else 1
+        least = 0 if name in OPTIONAL else 1
         if not least <= getattr(config, name) <= most:
             return f"{name} of {getattr(config, name)}, not of {least} to {most}"
+    if config.second_look and (config.point_rend != "instance" or 2 * config.second_look % GROUPS):
+        return f"second_look of {config.second_look} with point_rend {config.point_rend}"
     if not all(1 <= cells <= FRAME / FINEST_CELL for cells in config.grids):
         return f"grids of {config.grids} cells"
     ranges = config.scale_ranges

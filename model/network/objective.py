@@ -34,6 +34,8 @@ class Caps:
     """For each level (rows, columns) int64, which cap each cell learns: see ``model.network.targets``."""
     ignored: Tensor
     """(H, W) bool at photo pixels: where it is not said whether there is a cap."""
+    wholes: Tensor
+    """(n, 5) float64: the whole ellipses by ``model.geometry.ellipse_parameters``; NaN where not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +59,7 @@ class Batch:
                     targets=caps.targets.to(device),
                     cells=[cells.to(device) for cells in caps.cells],
                     ignored=caps.ignored.to(device),
+                    wholes=caps.wholes,
                 )
                 for caps in self.caps
             ],

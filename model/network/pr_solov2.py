@@ -16,6 +16,7 @@ from fairyring.model.network.fpn import FeaturePyramid
 from fairyring.model.network.kernel_head import KernelHead
 from fairyring.model.network.mask_head import MaskHead
 from fairyring.model.network.point_rend import PointHead, PointMaps
+from fairyring.model.network.second_look import SecondLook
 from fairyring.model.network.semantic_point_rend import SemanticPointRend, SharpFeature
 from fairyring.model.network.targets import grid_shape
 
@@ -64,6 +65,7 @@ class PRSOLOv2(nn.Module):
         self.mask_head = MaskHead(inputs=width, kernel_channels=config.kernel_channels, finest=finest)
         self.point_head = PointHead(config) if config.point_rend == "instance" else None
         self.sharpen = SemanticPointRend(config) if config.point_rend == "semantic" else None
+        self.second_look = SecondLook(config) if config.second_look else None
         mean, std = normalisation_of(config.backbone)
         # No weights file holds these: they are there also where the rest is built without memory.
         self.register_buffer("mean", torch.tensor(mean, device="cpu").view(1, 3, 1, 1), persistent=False)

@@ -41,29 +41,30 @@ def uncalibrated(probability: float, line: Calibration) -> float:
     return float(1 / (1 + np.exp(-(odds - line.shift) / line.slope)))
 
 
-def fit_calibration(scores: Figures, right: NDArray[np.bool_]) -> Calibration:
-    """The most likely line for (n,) raw scores of detections, given which of them, (n,), are right.
+def fit_calibration(scores: Figures, right: Figures | NDArray[np.bool_]) -> Calibration:
+    """The most likely line for (n,) raw scores of detections, given how right, 0 to 1, each of them (n,) is.
 
     Largest likelihood with a normal prior about no change; with no detections at all nothing is changed.
     """
-    x, sign = _log_odds(scores), np.where(right, 1.0, -1.0)
-    line = _most_likely(x, sign, start=np.array([1.0, 0.0]), free=[0, 1])
+    x, true = _log_odds(scores), right.astype(np.float64)
+    line = _most_likely(x, true, start=np.array([1.0, 0.0]), free=[0, 1])
     if line[0] < LEAST_SLOPE:  # the cost is convex, so the best line that is allowed has the least slope
-        line = _most_likely(x, sign, start=np.array([LEAST_SLOPE, line[1]]), free=[1])
+        line = _most_likely(x, true, start=np.array([LEAST_SLOPE, line[1]]), free=[1])
     return Calibration(*line.tolist())
 
 
-def _most_likely(x: Figures, sign: Figures, *, start: Figures, free: list[int]) -> Figures:
+def _most_likely(x: Figures, true: Figures, *, start: Figures, free: list[int]) -> Figures:
     """(slope, shift) by Newton's method, steps halved while they do not help; only ``free`` ones move."""
     inputs, line = np.stack([x, np.ones_like(x)]), start.copy()
 
     def cost(line: Figures) -> float:
         away = line - UNCHANGED
-        return float(np.logaddexp(0, -sign * (line @ inputs)).sum() + PRIOR / 2 * (away @ away))
+        odds = line @ inputs
+        return float((np.logaddexp(0, odds) - true * odds).sum() + PRIOR / 2 * (away @ away))
 
     for _ in range(MOST_STEPS):
         likely = 1 / (1 + np.exp(-(line @ inputs)))
-        gradient = inputs @ (likely - (sign > 0)) + PRIOR * (line - UNCHANGED)
+        gradient = inputs @ (likely - true) + PRIOR * (line - UNCHANGED)
         curvature = (inputs * likely * (1 - likely)) @ inputs.T + PRIOR * np.eye(2)
         step = np.zeros(2)
         step[free] = np.linalg.solve(curvature[np.ix_(free, free)], -gradient[free])

@@ -5,6 +5,8 @@ The photo at the former is the *scaled photo*: all passes are brought together t
 
 from __future__ import annotations
 
+import math
+
 import cv2
 import numpy as np
 from msgspec import Struct
@@ -13,9 +15,12 @@ from numpy.typing import NDArray
 from fairyring.model.network.config import FRAME
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.overlaps import Window
+from fairyring.model.predict.tiles import OVERLAP
 
 KNOWN = (35.0, 75.0)
 """Diameters of a photo's middling caps that the network reads well, pixels of what it is given."""
+WIDER = 1.6
+"""A cap may be so many times as long as a circle of its visible area is wide."""
 BEST = 50.0
 """The diameter that others are brought to."""
 
@@ -29,6 +34,11 @@ class Pass(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Diameter of the smallest caps taken: of a circle of their visible area, scaled photo's pixels."""
     most: float = 1e9
     """Diameter of the largest."""
+
+    @property
+    def overlap(self) -> int:
+        """How far two pieces of this pass overlap at least, its pixels: more than its caps are wide."""
+        return math.ceil(min(self.most * self.enlarged * WIDER, OVERLAP))
 
     def takes(self, pixels: float, *, slack: float = 1.0) -> bool:
         """Whether caps of so many visible pixels, of the pass itself, are taken; ``slack`` widens this."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from torch import Tensor
 
 from fairyring.model.predict.overlaps import (
     CONFIDENT,
@@ -33,26 +34,38 @@ class Piece:
     """Raw scores, in falling order."""
     windows: list[Window]
     """Their first pixels count from the tile's."""
+    kernels: Tensor
+    """(n, E)."""
 
 
-def pooled(pieces: Sequence[Piece], *, width: int, height: int) -> list[tuple[float, Window]]:
-    """Raw scores, falling, and windows of a scaled photo of this size with overlaps resolved."""
-    found = [
-        (score, window, nth)
-        for nth, piece in enumerate(pieces)
-        for score, window in _taken(piece, width=width, height=height)
-    ]
-    found.sort(key=lambda one: -one[0])
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """A cap in the scaled photo."""
+
+    score: float
+    """Raw."""
+    window: Window
+    piece: int
+    """Index of the piece that it was taken from."""
+    kernel: Tensor
+    """(E,)."""
+
+
+def pooled(pieces: Sequence[Piece], *, width: int, height: int) -> list[Found]:
+    """The caps of a scaled photo of this size with overlaps resolved, in falling order of score."""
+    found = [one for nth, _ in enumerate(pieces) for one in _taken(pieces, nth, width=width, height=height)]
+    found.sort(key=lambda one: -one.score)
     kept = found if len(pieces) == 1 else list(_without_repeats(found))
-    scores = [score for score, _, _ in kept]
-    windows = resolve_overlaps([window for _, window, _ in kept], scores, width=width, height=height)
-    return list(zip(scores, windows, strict=True))
+    scores = [one.score for one in kept]
+    windows = resolve_overlaps([one.window for one in kept], scores, width=width, height=height)
+    return [replace(one, window=window) for one, window in zip(kept, windows, strict=True)]
 
 
-def _taken(piece: Piece, *, width: int, height: int) -> Iterator[tuple[float, Window]]:
+def _taken(pieces: Sequence[Piece], nth: int, *, width: int, height: int) -> Iterator[Found]:
     """What is taken from a piece: caps of the sizes its pass is for, in the part that is the tile's own."""
+    piece = pieces[nth]
     tile, enlarged = piece.tile, piece.seen_in.enlarged
-    for score, window in zip(piece.scores, piece.windows, strict=True):
+    for score, window, kernel in zip(piece.scores, piece.windows, piece.kernels, strict=True):
         moved = Window(x=window.x + tile.x, y=window.y + tile.y, logits=window.logits)
         seen = without_specks(cut(moved, width=round(width * enlarged), height=round(height * enlarged)))
         rows, columns = np.nonzero(seen.logits > 0)
@@ -63,23 +76,24 @@ def _taken(piece: Piece, *, width: int, height: int) -> Iterator[tuple[float, Wi
             seen.y + (rows.min() + rows.max() + 1) / 2,
         )
         if tile.owns(*middle, slack=SLACK):
-            yield score, cut(shrunk(seen, enlarged=enlarged), width=width, height=height)
+            shown = cut(shrunk(seen, enlarged=enlarged), width=width, height=height)
+            yield Found(score=score, window=shown, piece=nth, kernel=kernel)
 
 
-def _without_repeats(found: Iterable[tuple[float, Window, int]]) -> Iterator[tuple[float, Window, int]]:
+def _without_repeats(found: Iterable[Found]) -> Iterator[Found]:
     """Without what lies for the most part on better and confident caps of other pieces; scores must fall."""
-    better: list[tuple[Window, int]] = []
-    for score, window, piece in found:
-        held = window.logits > 0
+    better: list[Found] = []
+    for one in found:
+        held = one.window.logits > 0
         others = np.zeros(held.shape, bool)
-        for other, of_piece in better:
-            if of_piece != piece:
-                _mark_common(others, window, other)
+        for other in better:
+            if other.piece != one.piece:
+                _mark_common(others, one.window, other.window)
         if np.count_nonzero(held & others) > MOST_TAKEN * np.count_nonzero(held):
             continue
-        yield score, window, piece
-        if score >= CONFIDENT:
-            better.append((window, piece))
+        yield one
+        if one.score >= CONFIDENT:
+            better.append(one)
 
 
 def _mark_common(marked: NDArray[np.bool_], window: Window, other: Window) -> None:

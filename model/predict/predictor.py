@@ -22,10 +22,11 @@ from fairyring.model.photo import Pixels
 from fairyring.model.predict.added_and_taken import behind, parted
 from fairyring.model.predict.calibration import Calibration, calibrated, uncalibrated
 from fairyring.model.predict.level_lines import outline_of_logits
+from fairyring.model.predict.looking_again import Opinion, opinions_of
 from fairyring.model.predict.overlaps import Window, distinct
 from fairyring.model.predict.passes import ONE_PASS, Pass, resized
-from fairyring.model.predict.pooling import Piece, pooled
-from fairyring.model.predict.prompts import window_at, window_in
+from fairyring.model.predict.pooling import Found, Piece, pooled
+from fairyring.model.predict.prompts import Pointed, cap_at, cap_in
 from fairyring.model.predict.seen import Detection, Seen, SeenPiece
 from fairyring.model.predict.smoothing import smoothed
 from fairyring.model.predict.tiles import Tile, tiles_of
@@ -77,7 +78,7 @@ class Predictor:
         return Seen(
             width=photo.shape[1],
             height=photo.shape[0],
-            scaled=(scaled.shape[1], scaled.shape[0]),
+            photo=scaled,
             pieces=pieces,
         )
 
@@ -86,7 +87,7 @@ class Predictor:
         """One pass of the network over a scaled photo (height, width, 3) uint8 RGB."""
         pieces = []
         photo = resized(scaled, nth.enlarged)
-        tiles = tiles_of(photo.shape[1], photo.shape[0])
+        tiles = tiles_of(photo.shape[1], photo.shape[0], overlap=nth.overlap)
         for first in range(0, len(tiles), self.settings.batch):
             batch = tiles[first : first + self.settings.batch]
             inputs = np.zeros((len(batch), *self._padded(batch[0]), 3), np.uint8)
@@ -126,7 +127,15 @@ class Predictor:
             )
             windows = [Window(x=x, y=y, logits=logits.float().cpu().numpy()) for x, y, logits in refined]
             scores = instances.scores.tolist()
-            pieces.append(Piece(seen_in=piece.seen_in, tile=piece.tile, scores=scores, windows=windows))
+            pieces.append(
+                Piece(
+                    seen_in=piece.seen_in,
+                    tile=piece.tile,
+                    scores=scores,
+                    windows=windows,
+                    kernels=instances.kernels,
+                )
+            )
         return pieces
 
     @torch.inference_mode()
@@ -135,24 +144,43 @@ class Predictor:
         found = decode(piece.outputs, piece.index, self.network.config, settings)
         return _chosen(found, distinct((found.logits > 0).cpu().numpy(), found.scores.tolist()))
 
-    def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
-        """Pools the pieces and traces outlines; the second half of ``read``."""
+    def pool(self, seen: Seen, pieces: Sequence[Piece]) -> list[Found]:
+        """The caps of all pieces with smooth masks, none of them empty, in falling order of raw score."""
         width, height = seen.scaled
+        smooth = [
+            replace(one, window=replace(one.window, logits=smoothed(one.window.logits)))
+            for one in pooled(pieces, width=width, height=height)
+        ]
+        return [one for one in smooth if (one.window.logits > 0).any()]
+
+    @torch.inference_mode()
+    def tell(self, seen: Seen, pieces: Sequence[Piece]) -> list[Detection]:
+        """Pools the pieces, looks at each cap once more and traces outlines; the second half of ``read``."""
+        found = self.pool(seen, pieces)
+        opinions = opinions_of(self.network, seen.photo, seen.pieces, found) or [None] * len(found)
+        raw = [one.score * (said.quality if said else 1) for one, said in zip(found, opinions, strict=True)]
+        scores = calibrated(np.array(raw), self.calibration).tolist()
+        told = [
+            self._detection(seen, score, one.window, said)
+            for score, one, said in zip(scores, found, opinions, strict=True)
+            if score >= self.settings.least_score
+        ]
+        return sorted([one for one in told if one is not None], key=lambda one: -one.score)
+
+    def _detection(self, seen: Seen, score: float, window: Window, said: Opinion | None) -> Detection | None:
+        """A cap of the scaled photo in the pixels of the photo; None where its mask is no outline."""
+        outline = outline_of_logits(window.logits, corner=(window.x, window.y))
+        if not outline:
+            return None
         scaling = _scaling(seen)
-        found = [
-            (score, _scaled(outline, 1 / scaling))
-            for score, window in pooled(pieces, width=width, height=height)
-            if (outline := _smooth_outline(window))
-        ]
-        scores = calibrated(np.array([score for score, _ in found]), self.calibration)
-        return [
-            Detection(
-                score=score,
-                outline=outline,
-                rle=rle_of_outline(outline, height=seen.height, width=seen.width),
-            )
-            for score, (_, outline) in zip(scores.tolist(), found, strict=True)
-        ]
+        outline = _scaled(outline, 1 / scaling)
+        return Detection(
+            score=score,
+            outline=outline,
+            rle=rle_of_outline(outline, height=seen.height, width=seen.width),
+            quality=said.quality if said else None,
+            whole=said.whole.enlarged(1 / scaling) if said else None,
+        )
 
     @torch.inference_mode()
     def at(
@@ -172,14 +200,11 @@ class Predictor:
         if len(places) != len(wanted) or not wanted[:1].all() or not len(places):
             raise ValueError("Every point needs a label, and the first must be on the cap.")
         scaling = _scaling(seen)
-        found = window_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest)
-        if found is not None:
-            score, window = found
-            for taken in places[~wanted] * scaling:
-                # A notch that goes no further than the click is smoothed away again.
-                if _holds(_smooth_outline(window), taken):
-                    window = parted(window, places[wanted] * scaling, taken)
-            found = score, window
+        found = cap_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest)
+        for taken in places[~wanted] * scaling:
+            # A notch that goes no further than the click is smoothed away again.
+            if found is not None and _holds(_smooth_outline(found.window), taken):
+                found = replace(found, window=parted(found.window, places[wanted] * scaling, taken))
         others = [o for o in front if not any(_holds(o, place) for place in places[wanted])]
         return self._told(seen, found, others)
 
@@ -189,27 +214,22 @@ class Predictor:
         left, top, right, bottom = (np.array(box) * np.tile(_scaling(seen), 2)).tolist()
         if not (left < right and top < bottom):
             raise ValueError("A box is given by its left, top, right and bottom.")
-        found = window_in(self.network, seen, (left, top, right, bottom), finest=self.settings.finest)
+        found = cap_in(self.network, seen, (left, top, right, bottom), finest=self.settings.finest)
         return self._told(seen, found, front)
 
-    def _told(
-        self, seen: Seen, found: tuple[float, Window] | None, front: Sequence[Outline]
-    ) -> Detection | None:
+    def _told(self, seen: Seen, pointed: Pointed | None, front: Sequence[Outline]) -> Detection | None:
         """The one cap that was asked for, cut where others lie in front; None where nothing is left of it."""
-        if found is None:
+        if pointed is None:
             return None
-        score, window = found
-        scaling = _scaling(seen)
-        window = behind(window, [_scaled(outline, scaling) for outline in front])
-        outline = _smooth_outline(window)
-        if not outline:
+        window = behind(pointed.window, [_scaled(outline, _scaling(seen)) for outline in front])
+        window = replace(window, logits=smoothed(window.logits))
+        if not (window.logits > 0).any():
             return None
-        outline = _scaled(outline, 1 / scaling)
-        return Detection(
-            score=float(calibrated(np.array(score), self.calibration)),
-            outline=outline,
-            rle=rle_of_outline(outline, height=seen.height, width=seen.width),
-        )
+        found = Found(score=pointed.score, window=window, piece=0, kernel=pointed.kernel)
+        opinions = opinions_of(self.network, seen.photo, [pointed.piece], [found])
+        said = opinions[0] if opinions else None
+        raw = pointed.score * (said.quality if said else 1)
+        return self._detection(seen, float(calibrated(np.array(raw), self.calibration)), window, said)
 
     def _padded(self, tile: Tile) -> tuple[int, int]:
         multiple = self.network.config.multiple

@@ -47,10 +47,23 @@ class _Chosen:
     """(h, w), at the mask stride."""
 
 
-def window_at(
+@dataclass(frozen=True, kw_only=True)
+class Pointed:
+    """The cap that was asked for, in the scaled photo."""
+
+    score: float
+    """Raw."""
+    window: Window
+    kernel: Tensor
+    """(E,)."""
+    piece: SeenPiece
+    """The piece that it was seen in."""
+
+
+def cap_at(
     network: PRSOLOv2, seen: Seen, points: Points, labels: NDArray[np.bool_], *, finest: int
-) -> tuple[float, Window] | None:
-    """Raw score and window, in the scaled photo, of the cap at clicks (p, 2), x, y there.
+) -> Pointed | None:
+    """The cap at clicks (p, 2), x, y in the scaled photo.
 
     ``labels`` (p,): whether the cap is to be there, or not; one at least is. None where nothing is seen.
     """
@@ -72,11 +85,11 @@ def window_at(
                 window = without(window, _drawn(network, seen, less, finest=finest))
             if value_at(window, point) > 0:
                 window = parted(window, points[labels], point)
-    return best.score, window
+    return _pointed(best, window)
 
 
-def window_in(network: PRSOLOv2, seen: Seen, box: Box, *, finest: int) -> tuple[float, Window] | None:
-    """The same of the cap whose box is most like this one: left, top, right, bottom in the scaled photo."""
+def cap_in(network: PRSOLOv2, seen: Seen, box: Box, *, finest: int) -> Pointed | None:
+    """The cap whose box is most like this one: left, top, right, bottom in the scaled photo."""
     left, top, right, bottom = box
     middle = np.array([[(left + right) / 2, (top + bottom) / 2]])
 
@@ -90,7 +103,11 @@ def window_in(network: PRSOLOv2, seen: Seen, box: Box, *, finest: int) -> tuple[
         return likeness
 
     best = _best(network, seen, middle, rating)
-    return None if best is None else (best.score, _drawn(network, seen, best, finest=finest))
+    return None if best is None else _pointed(best, _drawn(network, seen, best, finest=finest))
+
+
+def _pointed(chosen: _Chosen, window: Window) -> Pointed:
+    return Pointed(score=chosen.score, window=window, kernel=chosen.kernel, piece=chosen.piece)
 
 
 def _best_at(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.raster import Rle
 from fairyring.model.geometry.shapes import Outline
 from fairyring.model.network.pr_solov2 import Outputs
+from fairyring.model.photo import Pixels
 from fairyring.model.predict.passes import Pass
 from fairyring.model.predict.tiles import Tile
 
@@ -21,6 +23,10 @@ class Detection:
     """Outline of what is visible, with sub-pixel edges."""
     rle: Rle
     """The pixels of the outline."""
+    quality: float | None = None
+    """Expected IoU of the outline with the visible cap; None where the network takes no second look."""
+    whole: LikelyEllipse | None = None
+    """The whole outline as the second look sees it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +47,11 @@ class Seen:
 
     width: int
     height: int
-    scaled: tuple[int, int]
-    """Width and height of the scaled photo."""
+    photo: Pixels
+    """The scaled photo."""
     pieces: list[SeenPiece]
+
+    @property
+    def scaled(self) -> tuple[int, int]:
+        """Width and height of the scaled photo."""
+        return self.photo.shape[1], self.photo.shape[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -10,8 +11,9 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from fairyring.model.geometry.ellipse_parameters import moved_parameters, parameters_of
 from fairyring.model.geometry.raster import Mask, mask_of_outline
-from fairyring.model.geometry.shapes import Outline, bounds_of_outline
+from fairyring.model.geometry.shapes import Outline, Shape, bounds_of_outline
 from fairyring.model.network.config import FRAME
 from fairyring.model.train.augment import Affine, Augmentation, motion_of, move_image, move_outline
 
@@ -53,6 +55,8 @@ class Crop:
     """(n, 4): x, y, width, height of the masks."""
     centres: NDArray[np.float64]
     """(n, 2): mass centres of the masks."""
+    wholes: NDArray[np.float64]
+    """(n, 5): the whole ellipses, as in ``model.geometry.ellipse_parameters``; NaN where not known."""
     ignored: NDArray[np.bool_]
     """(side, side) bool: where nothing is learnt."""
 
@@ -62,6 +66,7 @@ def cut_crop(
     caps: list[Outline],
     ignored: list[Outline],
     *,
+    wholes: Sequence[Shape | None] = (),
     complete: bool = True,
     augmentation: Augmentation,
     config: CropConfig,
@@ -70,7 +75,7 @@ def cut_crop(
     """A crop at a random place; outside of the photo it is black.
 
     Where the caps are not all there are (``complete``), one of them is in the crop, and everything outside
-    them is ignored.
+    them is ignored. ``wholes``: the whole outline of each cap where it is known; empty where none is.
     """
     height, width = photo.shape[:2]
     scale = float(np.exp(rng.uniform(*np.log(config.scale))))
@@ -82,9 +87,8 @@ def cut_crop(
         middle = _middle(move_outline(caps[rng.integers(len(caps))], motion))
         corner = [_first_near(*axis, config.side, rng) for axis in zip(middle, extents, strict=True)]
     motion[:, 2] -= corner
-    masks = [
-        mask for outline in caps if (mask := _mask_in(move_outline(outline, motion), config.side)) is not None
-    ]
+    drawn = [_mask_in(move_outline(outline, motion), config.side) for outline in caps]
+    masks = [mask for mask in drawn if mask is not None]
     unlearnt = np.full((config.side, config.side), not complete)
     for mask in masks:
         unlearnt &= mask == 0
@@ -100,6 +104,7 @@ def cut_crop(
         masks=np.stack(masks) if masks else np.zeros((0, config.side, config.side), np.uint8),
         boxes=places[:, :4],
         centres=places[:, 4:],
+        wholes=_wholes_in([mask is not None for mask in drawn], wholes, motion),
         ignored=unlearnt,
     )
 
@@ -141,6 +146,16 @@ def _mask_in(outline: Outline, side: int) -> Mask | None:
     mask = np.zeros((side, side), np.uint8)
     mask[top:bottom, left:right] = window
     return mask
+
+
+def _wholes_in(drawn: Sequence[bool], wholes: Sequence[Shape | None], motion: Affine) -> NDArray[np.float64]:
+    """(n, 5): parameters of the whole outlines of the caps that are drawn in the crop."""
+    known = [
+        np.full(5, np.nan) if whole is None else moved_parameters(parameters_of(whole), motion)
+        for whole, shown in zip(wholes or [None] * len(drawn), drawn, strict=True)
+        if shown
+    ]
+    return np.array(known, np.float64).reshape(-1, 5)
 
 
 def _box_and_mass_centre(mask: Mask) -> tuple[float, ...]:

@@ -14,7 +14,7 @@ from torch.utils.data import Dataset
 
 from fairyring.model import photo
 from fairyring.model.errors import FairyringError
-from fairyring.model.geometry.shapes import Outline
+from fairyring.model.geometry.shapes import Outline, Shape
 from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.objective import Batch, Caps
 from fairyring.model.network.targets import assign_cells
@@ -41,6 +41,8 @@ class Example:
     """Visible outlines of the caps to learn."""
     ignored: list[Outline] = field(default_factory=list)
     """Outlines of regions where nothing is learnt."""
+    wholes: list[Shape | None] = field(default_factory=list)
+    """The whole outline of each cap where it is known; empty where none is."""
     complete: bool = True
     """Whether these are all caps of the photo; else nothing is learnt outside them."""
     light: str | None = None
@@ -83,6 +85,7 @@ class Batches(Dataset[Batch]):
                     read_rgb(example.path),
                     example.caps,
                     example.ignored,
+                    wholes=example.wholes,
                     complete=example.complete,
                     augmentation=sample_augmentation(
                         rng,
@@ -121,6 +124,7 @@ def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
         targets=targets if soft else _binary(targets),
         cells=[torch.from_numpy(level) for level in cells],
         ignored=torch.from_numpy(crop.ignored),
+        wholes=torch.from_numpy(crop.wholes),
     )
 
 

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 LOG, CURVES = "log.jsonl", "curves.png"
 SMOOTH = 25
 """Iterations over which the losses' curves are averaged."""
-TERMS = ("category", "mask", "points")
+TERMS = ("category", "mask", "points", "quality", "whole")
+"""The terms of a loss that are drawn where they are logged."""
 
 
 def append(folder: Path, entries: Iterable[dict[str, Any]]) -> None:
@@ -47,7 +48,7 @@ def draw_curves(folder: Path) -> None:
     checks = [entry for entry in entries if "AP" in entry]
     figure = Figure(figsize=(10, 4), layout="constrained")
     losses, figures = figure.subplots(1, 2)
-    for term in TERMS:
+    for term in [term for term in TERMS if all(term in step for step in steps)]:
         losses.plot([s["iteration"] for s in steps], _smoothed([s[term] for s in steps]), label=term)
     for name in ("AP", "AP50", "AP75", "S50"):
         known = [check for check in checks if name in check]

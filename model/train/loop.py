@@ -24,7 +24,6 @@ from torch import nn
 from torch.nn.parallel import DistributedDataParallel
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.network.losses import DICE_WEIGHT
 from fairyring.model.network.objective import Batch, Losses, losses_of
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import save_weights
@@ -36,8 +35,9 @@ from fairyring.model.train.distributed import Process, together
 from fairyring.model.train.loading import batches_of
 from fairyring.model.train.optimiser import freeze_statistics, rate_at, set_rate
 from fairyring.model.train.recipe import Recipe
+from fairyring.model.train.second_look import SecondLosses, SecondStep
 from fairyring.model.train.state import TrainingState, first_state, new_network
-from fairyring.model.train.validate import validate
+from fairyring.model.train.validate import calibrate, validate
 
 BEST, FINAL, CARD, LABELS = "best.safetensors", "weights.safetensors", "run.json", "labels.json"
 SEEDS = 1_000_003
@@ -84,7 +84,7 @@ class _Plan:
     report: Report
 
 
-class _Step(nn.Module):
+class _NetworkStep(nn.Module):
     """Forward pass and losses as one module, which several processes can share the gradients of."""
 
     def __init__(self, network: PRSOLOv2) -> None:
@@ -127,7 +127,7 @@ def train(
             checks = []
         plan = _Plan(recipe=recipe, checks=checks, out=out, card=card, process=process, report=report)
         circumstances = _prepare(state, plan, labels, resume=resume)
-        step = _Step(state.network)
+        step = _step_of(state, recipe)
         # A process whose crops show no cap uses neither the kernels nor the points.
         trained = DistributedDataParallel(step, find_unused_parameters=True) if process.world > 1 else step
         try:
@@ -149,6 +149,11 @@ def train(
             circumstances.write()
         process.wait()
         return TrainResult(weights=out / FINAL, figures=state.best)
+
+
+def _step_of(state: TrainingState, recipe: Recipe) -> nn.Module:
+    """What gives the losses of a batch, by what is to be learnt."""
+    return SecondStep(state.network) if recipe.learns == "second look" else _NetworkStep(state.network)
 
 
 @contextmanager
@@ -199,20 +204,21 @@ def _iterate(state: TrainingState, step: nn.Module, batches: list[Batch], plan: 
     rate = rate_at(state.iteration, recipe)
     set_rate(state.optimiser, rate)
     state.optimiser.zero_grad(set_to_none=True)
-    parts = []
+    parts: list[Losses | SecondLosses] = []
     for batch in batches:
         with torch.autocast(process.device.type, torch.bfloat16, enabled=recipe.bf16):
             losses = step(batch.to(process.device))
         (losses.total / len(batches)).backward()
-        parts.append(torch.stack([term.detach() for term in losses]))
-    category, mask, points = torch.stack(parts).mean(0).tolist()
+        parts.append(type(losses)(*(term.detach() for term in losses)))
+    means = type(parts[0])(*(torch.stack(terms).mean() for terms in zip(*parts, strict=True)))
+    loss = float(means.total)
     norm = float(nn.utils.clip_grad_norm_(state.network.parameters(), recipe.clip))
-    if not math.isfinite(norm) or not math.isfinite(category + mask + points):
+    if not math.isfinite(norm) or not math.isfinite(loss):
         raise TrainError(
             f"The loss is no number any more at iteration {state.iteration}; "
             "lower the rate, or lengthen the warm-up, and resume."
         )
-    state.losses.add(category + DICE_WEIGHT * mask + points, iteration=state.iteration)
+    state.losses.add(loss, iteration=state.iteration)
     state.stepping = True
     state.optimiser.step()
     if state.average is not None:
@@ -220,9 +226,8 @@ def _iterate(state: TrainingState, step: nn.Module, batches: list[Batch], plan: 
     state.iteration += 1
     state.stepping = False
     return {
-        "category": category,
-        "mask": mask,
-        "points": points,
+        **{name: float(term) for name, term in means._asdict().items()},
+        "loss": loss,
         "rate": rate,
         "norm": norm,
         "seconds": time.monotonic() - began,
@@ -263,7 +268,7 @@ def _check(state: TrainingState, plan: _Plan, losses: dict[str, float]) -> None:
         plan.report(_progress(state, plan, losses, what))
 
     validation = validate(state.kept, plan.checks, device=plan.process.device, progress=say)
-    state.kept.calibration.copy_(torch.tensor(validation.calibration))
+    calibrate(state.kept, validation)
     found = {name: value for name, value in validation.figures.items() if isinstance(value, float)}
     train_log.append(plan.out, [{"iteration": state.iteration, **found}])
     state.checked = state.iteration
@@ -288,6 +293,6 @@ def _progress(state: TrainingState, plan: _Plan, losses: dict[str, float], what:
     return TrainingProgress(
         iteration=state.iteration,
         iterations=plan.recipe.iterations,
-        loss=losses["category"] + DICE_WEIGHT * losses["mask"] + losses["points"],
+        loss=losses["loss"],
         what=what,
     )

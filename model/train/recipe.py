@@ -9,8 +9,10 @@ import msgspec
 from msgspec import Struct, field
 
 from fairyring.model.errors import FairyringError
-from fairyring.model.network.config import GROUPS, LEVELS, NetworkConfig
+from fairyring.model.network.config import GROUPS, LEVELS, OPTIONAL, NetworkConfig
 from fairyring.model.train.crops import CropConfig
+
+Learns = Literal["network", "second look"]
 
 
 class RecipeError(FairyringError):
@@ -22,6 +24,9 @@ class Recipe(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     network: NetworkConfig = field(default_factory=NetworkConfig)
     crop: CropConfig = field(default_factory=CropConfig)
+    learns: Learns = "network"
+    """``second look`` keeps all that the base weights know, and teaches (adding it where there is none) only
+    how good masks are and where whole ellipses lie."""
     targets: Literal["soft", "binary"] = "soft"
     iterations: int = 5000
     batch: int = 4
@@ -107,8 +112,14 @@ def _check_network(network: NetworkConfig, where: str) -> None:
         raise RecipeError(f"{where}: network.reduction is {network.reduction}; it must be 1, 2, 4 …")
     if min(network.grids) < 1 or min(network.head_convs, network.point_channels) < 1:
         raise RecipeError(f"{where}: network.grids, head_convs and point_channels must be 1 or more.")
-    if network.detail_channels < 0:
-        raise RecipeError(f"{where}: network.detail_channels is below 0; 0 is none.")
+    for name in OPTIONAL:
+        if getattr(network, name) < 0:
+            raise RecipeError(f"{where}: network.{name} is below 0; 0 is none.")
+    if network.second_look and (network.point_rend != "instance" or 2 * network.second_look % GROUPS):
+        raise RecipeError(
+            f"{where}: network.second_look must be a multiple of {GROUPS // 2}, "
+            'and goes with point_rend = "instance" alone.'
+        )
     if len(network.scale_ranges) != LEVELS or any(low > high for low, high in network.scale_ranges):
         raise RecipeError(
             f"{where}: network.scale_ranges must be {LEVELS} pairs of sizes, the smaller first."

@@ -15,6 +15,7 @@ from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.train.divergence import Losses
 from fairyring.model.train.optimiser import average_of, freeze_stages, optimiser_of
 from fairyring.model.train.recipe import Recipe
+from fairyring.model.train.second_look import learn_only_the_second_look
 
 
 @dataclass(kw_only=True)
@@ -72,7 +73,10 @@ def new_network(recipe: Recipe) -> PRSOLOv2:
 
 def first_state(network: PRSOLOv2, recipe: Recipe, *, device: torch.device) -> TrainingState:
     """The state before the first iteration; this very network is trained."""
-    freeze_stages(network.backbone, recipe.frozen)
+    if recipe.learns == "second look":
+        learn_only_the_second_look(network)
+    else:
+        freeze_stages(network.backbone, recipe.frozen)
     network = network.to(device=device, memory_format=torch.channels_last)  # pyright: ignore
     return TrainingState(
         network=network,

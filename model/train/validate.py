@@ -23,6 +23,7 @@ from fairyring.model.predict.calibration import Calibration, calibrated, fit_cal
 from fairyring.model.predict.predictor import PredictConfig, Predictor
 from fairyring.model.predict.seen import Detection
 from fairyring.model.progress import Progress, silent
+from fairyring.model.train.calibrating import SecondLookCalibration, fit_second_look
 from fairyring.model.train.data import Example, read_rgb
 
 
@@ -34,6 +35,8 @@ class Validation:
     """The figures of ``evaluate masks``, with calibrated scores."""
     calibration: Calibration
     """The calibration of the network's scores on these examples, at IoU .5."""
+    second_look: SecondLookCalibration | None
+    """The calibration of its second look; None where it takes none."""
 
 
 def validate(
@@ -47,6 +50,9 @@ def validate(
     """Validates a copy of the network; the calibration that it has already plays no part."""
     raw = copy.deepcopy(network)
     raw.calibration.copy_(torch.tensor(Calibration()))
+    if raw.second_look is not None:
+        raw.second_look.quality_line.copy_(torch.tensor(Calibration()))
+        raw.second_look.spread.fill_(1.0)
     predictor = Predictor(raw, device=device, settings=settings)
     found = []
     for nth, example in enumerate(examples):
@@ -57,7 +63,17 @@ def validate(
     counted = ~outcomes.dropped
     calibration = fit_calibration(outcomes.score[counted], outcomes.right[counted])
     figures = to_builtins(score_masks([_calibrated(page, calibration) for page in pages]))
-    return Validation(figures=figures, calibration=calibration)
+    second = fit_second_look(examples, found) if raw.second_look is not None else None
+    return Validation(figures=figures, calibration=calibration, second_look=second)
+
+
+def calibrate(network: PRSOLOv2, validation: Validation) -> None:
+    """Has the network say what the validation found that it means."""
+    network.calibration.copy_(torch.tensor(validation.calibration))
+    second = validation.second_look
+    if network.second_look is not None and second is not None:
+        network.second_look.quality_line.copy_(torch.tensor(second.quality))
+        network.second_look.spread.copy_(torch.tensor(second.spread))
 
 
 def page_of(example: Example, found: Sequence[Detection]) -> Page:

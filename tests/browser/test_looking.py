@@ -131,34 +131,6 @@ def test_two_fingers_move_and_zoom_the_photo(tab: Tab) -> None:
     assert tab.state("selection") == []
 
 
-def wheel(tab: Tab, *, dx: float, dy: float, trackpad: bool, ctrl: bool = False) -> None:
-    """What a browser tells of two fingers on a trackpad, or of a notch of a wheel."""
-    tab.page.evaluate(
-        """({ x, y, dx, dy, trackpad, ctrl }) => {
-            const told = trackpad ? -3 * dy : -120 * Math.sign(dy);
-            const how = { bubbles: true, cancelable: true, clientX: x, clientY: y, ctrlKey: ctrl };
-            const event = new WheelEvent("wheel", { ...how, deltaX: dx, deltaY: dy, wheelDeltaY: told });
-            document.querySelector("#fairyring-editor").dispatchEvent(event);
-        }""",
-        {**dict(zip("xy", tab.screen((200, 200)), strict=True)), "dx": dx, "dy": dy}
-        | {"trackpad": trackpad, "ctrl": ctrl},
-    )
-
-
-def test_two_fingers_on_a_trackpad_move_the_photo_and_a_pinch_or_a_wheel_zooms_it(tab: Tab) -> None:
-    tab.page.mouse.move(*tab.screen((200, 200)))
-    before, (x, y) = tab.page.evaluate("window.fairyring.view.scale"), tab.screen((200, 200))
-    wheel(tab, dx=12, dy=30, trackpad=True)
-    wheel(tab, dx=0, dy=10, trackpad=True)
-    assert tab.screen((200, 200)) == pytest.approx((x - 12, y - 40))
-    assert tab.page.evaluate("window.fairyring.view.scale") == before
-    wheel(tab, dx=0, dy=-10, trackpad=True, ctrl=True)
-    pinched = tab.page.evaluate("window.fairyring.view.scale")
-    assert pinched > 1.05 * before
-    wheel(tab, dx=0, dy=-100, trackpad=False)
-    assert tab.page.evaluate("window.fairyring.view.scale") > 1.1 * pinched
-
-
 def test_buttons_zoom(tab: Tab) -> None:
     before = tab.page.evaluate("window.fairyring.view.scale")
     tab.page.get_by_role("button", name="Zoom in").click()

@@ -199,28 +199,6 @@ def test_keys_work_after_every_kind_of_control_and_only_text_takes_letters(tab: 
     assert len(tab.state("selection")) == 1
 
 
-def test_f6_just_after_opening_and_every_redrawing_of_the_panel_leave_the_focus_there(tab: Tab) -> None:
-    tab.page.reload()
-    tab.wait_for(ONLINE)
-    tab.press("F6")
-    inside = (
-        "document.activeElement !== document.body && !document.activeElement.closest('#fairyring-editor')"
-    )
-    for _ in range(6):
-        tab.page.wait_for_timeout(300)
-        assert tab.page.evaluate(inside)
-    # Its buttons say the status, so what a status changes is drawn anew around the button that was pressed.
-    for status in ("annotated", "to_do"):
-        tab.page.locator(f"[data-fairyring-command={status}]").first.focus()
-        tab.page.keyboard.press("Enter")
-        question = tab.page.get_by_role("alertdialog", name="Question")
-        if question.count():
-            question.locator("button[value=yes]").click()
-        tab.saved()
-        tab.page.wait_for_timeout(1500)
-        assert tab.page.evaluate("() => document.activeElement.dataset.fairyringCommand") == status
-
-
 def test_tab_goes_from_cap_to_cap_and_on_into_the_panel_and_f6_leads_there_and_back(tab: Tab) -> None:
     inside = "Boolean(document.activeElement.closest('#fairyring-editor'))"
     tab.click((600, 20))

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from fairyring.model.contour import harmonic
+from fairyring.model.contour.expectation import Expected, expected_of
 from fairyring.model.contour.harmonic import Evidence, Outlines, fit_outlines
 from fairyring.model.contour.priors import DEFAULT
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Ellipse, points_on_ellipse
 
 ANGLES = np.linspace(0, 2 * np.pi, 48, endpoint=False)
@@ -29,6 +31,7 @@ def evidence(
         stretch=0.1,
         size=0.0,
         size_precision=0.0,
+        expected=expected_of([None]),
     )
 
 
@@ -50,6 +53,43 @@ def test_points_on_an_ellipse_give_its_centre_axes_and_angle():
     assert found.shape[0, :2] == pytest.approx(
         [stretch * np.cos(np.radians(60)), stretch * np.sin(np.radians(60))], abs=2e-3
     )
+
+
+def said_to_be(mean: tuple[float, float, float, float, float], sd: list[float]) -> Expected:
+    covariance = tuple(map(tuple, np.diag(np.square(sd)).tolist()))
+    return expected_of([LikelyEllipse(parameters=mean, covariance=covariance)])
+
+
+def test_what_is_expected_decides_where_the_rim_says_nothing():
+    """Of a quarter of a rim the centre along it is well known, and across it hardly."""
+    arc = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), np.linspace(-0.4, 0.4, 24))
+    alone = evidence(arc)
+    told = replace(alone, expected=said_to_be((303, 200, np.log(37), 0, 0), [0.01, 0.01, 0.01, 0.05, 0.05]))
+    found = fitted(told, circle(300, 200, 40)).outlines
+    assert found.centre[0] == pytest.approx([303, 200], abs=0.4)
+    assert np.exp(found.log_radius[0]) == pytest.approx(37, abs=0.4)
+
+
+def test_what_is_expected_hardly_moves_a_rim_that_is_all_in_sight():
+    rim = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), ANGLES)
+    told = replace(
+        evidence(rim), expected=said_to_be((306, 200, np.log(37), 0, 0), [0.1, 0.1, 0.1, 0.05, 0.05])
+    )
+    found = fitted(told, circle(300, 200, 40)).outlines
+    assert found.centre[0] == pytest.approx([300, 200], abs=0.1)
+    assert np.exp(found.log_radius[0]) == pytest.approx(40, abs=0.1)
+
+
+def test_expectation_and_rim_meet_at_the_mean_weighted_by_their_precisions():
+    """With a rim that knows x to a standard deviation s, an expectation as sure moves it half of the way."""
+    rim = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), ANGLES)
+    alone = fitted(evidence(rim), circle(300, 200, 40))
+    sd = float(np.sqrt(alone.covariance[0, 0, 0]))
+    told = replace(
+        evidence(rim),
+        expected=said_to_be((300 + 40 * 0.002, 200, np.log(40), 0, 0), [sd, 1e3, 1e3, 1e3, 1e3]),
+    )
+    assert fitted(told, circle(300, 200, 40)).outlines.centre[0, 0] == pytest.approx(300.04, abs=0.002)
 
 
 def test_slopes_agree_with_differences_of_the_residuals():

@@ -43,6 +43,7 @@ def crop_of(discs: list[tuple[float, float, float]], *, ignored: bool = False) -
         boxes=np.array([(cx - r, cy - r, 2 * r, 2 * r) for cx, cy, r in discs]).reshape(-1, 4),
         centres=np.array([(cx, cy) for cx, cy, _ in discs]).reshape(-1, 2),
         ignored=unlearnt,
+        wholes=np.full((len(masks), 5), np.nan),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import torch
 
 from fairyring.model.predict.overlaps import Window
 from fairyring.model.predict.passes import Pass
@@ -22,13 +23,15 @@ def disc(cx: float, cy: float, r: float) -> Window:
 
 def piece(seen_in: Pass, *seen: tuple[float, Window]) -> Piece:
     (tile,) = tiles_of(round(WIDTH * seen_in.enlarged), round(HEIGHT * seen_in.enlarged))
-    return Piece(seen_in=seen_in, tile=tile, scores=[s for s, _ in seen], windows=[w for _, w in seen])
+    scores, windows = [s for s, _ in seen], [w for _, w in seen]
+    kernels = torch.zeros(len(seen), 1)
+    return Piece(seen_in=seen_in, tile=tile, scores=scores, windows=windows, kernels=kernels)
 
 
 def widths(*pieces: Piece) -> list[tuple[float, int]]:
     """Score and width of what is left."""
     found = pooled(pieces, width=WIDTH, height=HEIGHT)
-    return [(score, int((window.logits > 0).any(axis=0).sum())) for score, window in found]
+    return [(one.score, int((one.window.logits > 0).any(axis=0).sum())) for one in found]
 
 
 def test_a_cap_of_both_passes_is_taken_from_the_surer_one() -> None:

@@ -15,7 +15,7 @@ from fairyring.model.geometry.shapes import area_of_outline, bounds_of_outline
 from fairyring.model.network.decode import DecodeConfig, Instances
 from fairyring.model.network.refine import RefinedMask
 from fairyring.model.network.weights import load_weights
-from fairyring.model.predict import tiles
+from fairyring.model.predict import passes, tiles
 from fairyring.model.predict.calibration import Calibration, calibrated
 from fairyring.model.predict.passes import Pass, resized
 from fairyring.model.predict.predictor import PredictConfig, Predictor
@@ -109,7 +109,7 @@ def test_scores_are_calibrated_and_those_too_low_are_not_told(learnt: Learnt) ->
 def small_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tiles, "LONGEST", SIDE)
     monkeypatch.setattr(tiles, "SHORTEST", SIDE)
-    monkeypatch.setattr(tiles, "OVERLAP", 64)
+    monkeypatch.setattr(passes, "OVERLAP", 64)
 
 
 def quilt() -> tuple[NDArray[np.uint8], list[tuple[float, float, float]]]:
@@ -121,7 +121,7 @@ def quilt() -> tuple[NDArray[np.uint8], list[tuple[float, float, float]]]:
 @pytest.mark.usefixtures("small_tiles")
 def test_caps_at_seams_are_whole_and_found_once(predictor: Predictor) -> None:
     photo, discs = quilt()
-    assert len(tiles.tiles_of(192, SIDE)) == 2
+    assert len(tiles.tiles_of(192, SIDE, overlap=64)) == 2
     found = sure(predictor.detect(photo))
     assert len(found) == len(discs)
     overlaps = iou_matrix([one.rle for one in found], [one.rle for one in found])

@@ -86,6 +86,23 @@ def test_an_empty_set_is_refused(examples: list[Example], tmp_path: Path) -> Non
             digest_after_training(none, tmp_path / str(nth))
 
 
+def test_a_photo_that_is_said_to_have_no_caps_changes_what_is_learnt(
+    examples: list[Example], tmp_path: Path
+) -> None:
+    """A photo of ground alone, in the place of one of caps: the caps seen are the same, and it is not."""
+    first, second = examples
+    bare = Example(path=second.path, width=second.width, height=second.height, caps=[])
+    unsaid = Example(path=second.path, width=second.width, height=second.height, caps=[], complete=False)
+    digests = {
+        digest_after_training([first, other], tmp_path / name)
+        for name, other in (("caps", second), ("bare", bare), ("unsaid", unsaid))
+    }
+    assert len(digests) == 3
+    (_, with_bare), *_ = logged(tmp_path / "bare", "category")
+    (_, with_unsaid), *_ = logged(tmp_path / "unsaid", "category")
+    assert with_bare != with_unsaid
+
+
 def test_batches_are_gathered_before_a_step(examples: list[Example], tmp_path: Path) -> None:
     """Two batches of two take the mean of what each would have said alone."""
     recipe = replace(SHORT, iterations=2, accumulate=2)
