@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import torch
+from msgspec.structs import replace
 
 from fairyring.model.network.config import NetworkConfig
 from fairyring.model.network.pr_solov2 import PRSOLOv2
@@ -22,14 +23,15 @@ SMALL = NetworkConfig(
 )
 
 
-def write_weights(path: Path, *, seed: int = 0) -> str:
+def write_weights(path: Path, *, seed: int = 0, second_look: int = 0) -> str:
     """Writes them and returns their digest."""
     torch.manual_seed(seed)
-    network = PRSOLOv2(SMALL)
+    config = replace(SMALL, second_look=second_look)
+    network = PRSOLOv2(config)
     with torch.no_grad():
         network.category_head.logit.bias.fill_(3.0)
         network.kernel_head.weights.weight.mul_(40)
-    return save_weights(path, network.state_dict(), SMALL, card={})
+    return save_weights(path, network.state_dict(), config, card={})
 
 
 RECIPE = """

@@ -54,9 +54,9 @@ def _row(name: str, of: str, quality: Figures, score: Figures, iou: Figures) -> 
         "count": len(iou),
         "rank_quality": _rounded(rank_correlation(quality, iou)),
         "rank_score": _rounded(rank_correlation(score, iou)),
-        "IoU_mean": _rounded(float(iou.mean())),
-        "quality_mean": _rounded(float(quality.mean())),
-        "quality_off_by": _rounded(float(np.abs(quality - iou).mean())),
+        "IoU_mean": _mean(iou),
+        "quality_mean": _mean(quality),
+        "quality_off_by": _mean(np.abs(quality - iou)),
         "IoU<.85": int(loose.sum()),
         "of_those_score>=.9": int((loose & (score >= SURE)).sum()),
     }
@@ -74,6 +74,10 @@ def _ranks(figures: Figures) -> Figures:
     _, places, counts = np.unique(figures, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     return ((2 * last - counts + 1) / 2)[places]
+
+
+def _mean(figures: Figures) -> float | None:
+    return _rounded(float(figures.mean())) if len(figures) else None
 
 
 def _rounded(figure: float) -> float | None:

@@ -8,11 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import cv2
+import numpy as np
 import pytest
 import torch
 from typer.testing import CliRunner
 
 from fairyring.app.bench.network import sets
+from fairyring.app.bench.network.quality import rank_correlation
 from fairyring.app.cli import app
 from fairyring.model.scene.presets import PRESETS
 from fairyring.model.scene.settings import Growth, Settings
@@ -26,7 +28,7 @@ Table = Callable[..., list[dict[str, Any]]]
 def table(tmp_path_factory: pytest.TempPathFactory) -> Table:
     """Runs one of the commands on a test bed a preset, kept between calls, and returns its rows."""
     folder = tmp_path_factory.mktemp("bench")
-    write_weights(folder / "small.safetensors")
+    write_weights(folder / "small.safetensors", second_look=16)
 
     def rows(name: str, *options: str | Path) -> list[dict[str, Any]]:
         arguments = ["bench", "network", name, "--device", "cpu", "--json", *map(str, options)]
@@ -65,6 +67,23 @@ def test_centres_account_for_every_cap(table: Table) -> None:
     for row in table("centres"):
         assert row["matched"] + row["missed"] == caps[row["set"]]
         assert row["paper_CDR_%"] == 0.3
+
+
+def test_quality_is_held_against_the_true_iou(table: Table) -> None:
+    rows = {(row["set"], row["predictions"]): row for row in table("quality")}
+    assert set(rows) == {(name, of) for name in ("paper", "farm") for of in ("all", "on a cap")}
+    for name in ("paper", "farm"):
+        everything, on_a_cap = rows[name, "all"], rows[name, "on a cap"]
+        assert 0 <= on_a_cap["count"] <= everything["count"]
+        assert 0 < everything["quality_mean"] < 1
+        assert -1 <= everything["rank_quality"] <= 1
+
+
+def test_equal_figures_share_a_rank() -> None:
+    # By hand: ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4.
+    ones, others = np.array([1.0, 5, 5, 9]), np.array([0.1, 0.2, 0.3, 0.4])
+    assert rank_correlation(ones, others) == pytest.approx(4.5 / np.sqrt(4.5 * 5))
+    assert np.isnan(rank_correlation(ones, np.array([0.1, np.nan, 0.3, 0.4])))
 
 
 def test_the_stages_add_up_to_the_cost_of_a_photo(table: Table) -> None:
