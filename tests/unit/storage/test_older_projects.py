@@ -138,7 +138,7 @@ def test_statuses_sent_after_the_upgrade_have_numbers_beside_the_old_ones(upgrad
 def test_of_predictions_from_before_the_upgrade_no_quality_is_known(tmp_path: Path) -> None:
     older_project(
         tmp_path / "beds",
-        "0006",
+        "0007",
         "INSERT INTO run (name, kind, made_at, settings) VALUES ('r', 'network', '2026-03-01', '{}')",
         "INSERT INTO prediction (run, image, uid, category, visible, score, extra) "
         "VALUES (1, 1, 'u', 1, '[[0,0,9,0,9,9]]', 0.75, '{}')",
