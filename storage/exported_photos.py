@@ -17,6 +17,8 @@ from fairyring.storage.project import Project
 from fairyring.storage.records import Image
 
 JPEG_QUALITY = 97
+JPEG = (".jpg", ".jpeg", ".jpe")
+"""Endings of files that OpenCV writes as JPEG; in other formats it complains of a quality."""
 
 
 def write_photos(
@@ -64,7 +66,8 @@ def _copy(source: Path, target: Path, digest: str) -> str:
         return digest
     # OpenCV goes by the ending, and does not know all of JPEG's.
     suffix = target.suffix.lower().replace(".jfif", ".jpg") or ".png"
-    _, encoded = cv2.imencode(suffix, read(source), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    quality = [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY] if suffix in JPEG else []
+    _, encoded = cv2.imencode(suffix, read(source), quality)
     upright = encoded.tobytes()
     target.write_bytes(upright)
     return sha256(upright).hexdigest()

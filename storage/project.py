@@ -14,6 +14,7 @@ from collections.abc import Callable, Generator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from tempfile import TemporaryDirectory
 from typing import TypeVar
 from uuid import uuid4
@@ -154,11 +155,13 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
     if is_project(folder):
         raise StoreError(f"{folder} is a Fairyring project already; open it, or choose another folder.")
     try:
-        if url is None and (folder / DATABASE).exists():
-            check_is_project(folder / DATABASE)
-        (folder / IMAGES).mkdir(parents=True, exist_ok=True)
+        if url is None:
+            if (folder / DATABASE).exists():
+                check_is_project(folder / DATABASE)
+            (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         database = url or _own_database(folder)
         make_tables(database, source=folder)
+        (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         _enter_names(database, name=folder.resolve().name, shared=url is not None)
         (folder / SETTINGS).write_text(_settings(folder.resolve().name, url), encoding="utf-8")
     except OSError as error:
@@ -176,7 +179,7 @@ def open_project(folder: Path) -> Project:
     """
     if (folder / NOTE_OF_BACKUP).exists():
         raise StoreError(
-            f"{folder} is a backup; make a project of it with: fairyring restore {folder} PROJECT"
+            f"{folder} is a backup; make a project of it with: fairyring restore {quote(str(folder))} PROJECT"
         )
     settings = _read_settings(folder)
     url = settings.get("store", {}).get("url")
@@ -235,7 +238,9 @@ def _settings(name: str, url: str | None) -> str:
 def _read_settings(folder: Path) -> dict:
     path = folder / SETTINGS
     if not path.is_file():
-        raise StoreError(f"{folder} is not a Fairyring project; make one with: fairyring init {folder}")
+        raise StoreError(
+            f"{folder} is not a Fairyring project; make one with: fairyring init {quote(str(folder))}"
+        )
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
@@ -39,7 +40,7 @@ def demo(
     elif is_there:
         typer.echo(f"{folder} is there already; delete the folder to start afresh.", err=True)
     else:
-        typer.echo(f"Made {folder}. Next: fairyring serve {folder}", err=True)
+        typer.echo(f"Made {folder}. Next: fairyring serve {quote(str(folder))}", err=True)
 
 
 def _make(folder: Path, *, count: int, seed: int) -> None:

@@ -6,7 +6,9 @@ import json
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
+from shlex import quote
 from typing import TYPE_CHECKING, Annotated
+from unicodedata import normalize
 
 import typer
 
@@ -39,7 +41,7 @@ def take_out(folder: ProjectFolder, names: Names, *, by: By = "command", as_json
         typer.echo(json.dumps({"images": len(taken), "annotations": caps}))
         return
     typer.echo(f"{len(taken)} images with {caps} annotations were taken out of {folder}.")
-    typer.echo(f"Undo it with: fairyring put-back {folder}", err=True)
+    typer.echo(f"Undo it with: fairyring put-back {quote(str(folder))}", err=True)
 
 
 def put_back(
@@ -109,6 +111,7 @@ def images_called(project: Project, patterns: Sequence[str]) -> list[int]:
 
 
 def _is_called(file_name: str, patterns: Sequence[str]) -> bool:
-    """Whether a name, with or without its folders, is one of the patterns'."""
+    """Whether a name, with or without its folders, is one of the patterns', however letters are composed."""
     names = (file_name, PurePosixPath(file_name).name)
+    patterns = [normalize("NFC", pattern) for pattern in patterns]
     return any(fnmatchcase(name, pattern) or name == pattern for name in names for pattern in patterns)

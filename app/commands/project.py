@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shlex import quote
 from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
@@ -35,7 +36,7 @@ def init(
     from fairyring.storage.project import create_project
 
     create_project(folder, url=db).close()
-    typer.echo(f"Made {folder}. Next: fairyring import {folder} PHOTOS", err=True)
+    typer.echo(f"Made {folder}. Next: fairyring import {quote(str(folder))} PHOTOS", err=True)
 
 
 def export(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from shlex import quote
+
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
@@ -17,7 +19,7 @@ def first_steps(project: Project) -> Markup:
             "button", "Choose photos…", type="button", class_="fr-primary", data_fairyring_upload="choose"
         ),
         element("p", "In a terminal the same, also with labels:"),
-        element("code", f"fairyring import {project.folder} PHOTOS…"),
+        element("code", f"fairyring import {quote(str(project.folder))} PHOTOS…"),
         class_="fr-cap fr-first",
     )
 

@@ -31,8 +31,8 @@ def checked_counts(rle: Any) -> tuple[int, int, list[int]]:
     """
     if not isinstance(rle, dict) or "size" not in rle or "counts" not in rle:
         raise GeometryError("The RLE lacks its size or its counts.")
-    size = rle["size"]
-    if not isinstance(size, list | tuple) or len(size) != 2 or any(type(n) is not int or n < 1 for n in size):
+    size = _whole_numbers(rle["size"])
+    if size is None or len(size) != 2 or min(size) < 1:
         raise GeometryError("The size of an RLE must be two positive whole numbers, height and width.")
     height, width = size
     if height * width > MAX_PIXELS:
@@ -43,11 +43,23 @@ def checked_counts(rle: Any) -> tuple[int, int, list[int]]:
         raise GeometryError(f"The RLE has more than {MOST_COUNTS} counts; smooth the mask.")
     if isinstance(counts, str | bytes):
         counts = _counts_of_text(counts)
-    if not isinstance(counts, list) or any(type(count) is not int or count < 0 for count in counts):
+    counts = _whole_numbers(counts)
+    if counts is None or any(count < 0 for count in counts):
         raise GeometryError("The counts of an RLE must be whole numbers, none below zero.")
     if sum(counts) != height * width:
         raise GeometryError(f"The counts of the RLE do not add up to its {width} × {height} pixels.")
     return height, width, counts
+
+
+def _whole_numbers(values: Any) -> list[int] | None:
+    """The values as integers, 150.0 as 150; None where one is no whole number, or it is no list."""
+    if not isinstance(values, list | tuple):
+        return None
+    if all(type(value) is int for value in values):
+        return [*values]
+    if all(type(value) is int or (type(value) is float and value.is_integer()) for value in values):
+        return [int(value) for value in values]
+    return None
 
 
 def cut_of_counts(height: int, counts: list[int]) -> tuple[NDArray[np.uint8], tuple[int, int]]:

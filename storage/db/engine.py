@@ -40,7 +40,21 @@ NETWORK_FILE_SYSTEMS = {
 
 
 def connect_engine(url: str | URL, *, write: bool) -> Engine:
-    """An engine for readers (a pool, one snapshot a transaction) or for the one writer."""
+    """An engine for readers (a pool, one snapshot a transaction) or for the one writer.
+
+    Raises:
+        StoreError: the address is none, or the database's driver is not installed.
+    """
+    try:
+        return _engine(url, write=write)
+    except (exc.ArgumentError, ImportError) as error:
+        raise StoreError(
+            f"The database cannot be reached: {error}. Its address looks like "
+            "postgresql+psycopg://HOST/NAME, and its driver (here psycopg) has to be installed."
+        ) from error
+
+
+def _engine(url: str | URL, *, write: bool) -> Engine:
     if make_url(url).get_backend_name() != "sqlite":
         return create_engine(url, **({"pool_size": 1, "max_overflow": 0} if write else {}))
     pool = {"pool_size": 1, "max_overflow": 0} if write else {"pool_size": READERS}

@@ -114,13 +114,15 @@ def _keep_predictions(intake: Intake) -> None:
     for name, caps in intake.caps.items():
         refusals = [(cap, refused_as_prediction(cap)) for cap in caps]
         intake.caps[name] = [cap for cap, reason in refusals if reason is None]
-        intake.problems += [Problem(name, cap.where, reason) for cap, reason in refusals if reason]
+        intake.problems += [Problem(cap.file, cap.where, reason) for cap, reason in refusals if reason]
 
 
 def _require_usable(intake: Intake, paths: Sequence[Path], *, strict: bool) -> None:
     first = str(intake.problems[0]) if intake.problems else "there is no photo or file of labels in it"
     if not intake.seen:
-        raise StoreError(f"Nothing was imported from {', '.join(map(str, paths))}: {first}")
+        of_one = intake.problems and [str(path) for path in paths] == [intake.problems[0].file]
+        whence = "" if of_one else f" from {', '.join(map(str, paths))}"
+        raise StoreError(f"Nothing was imported{whence}: {first}")
     if strict and intake.problems:
         others = len(intake.problems) - 1
         raise StoreError(f"Nothing was imported, as asked: {first}" + (f" ({others} more)" if others else ""))

@@ -9,6 +9,7 @@ from pathlib import Path
 from msgspec import structs
 
 from fairyring.model.json_files import parse_json, read_file, unzipped
+from fairyring.model.photo import PhotoError
 from fairyring.storage.errors import StoreError
 from fairyring.storage.importing.photos import Photo, examine
 
@@ -29,4 +30,8 @@ def unpacked_photo(document: Path, name: str, *, scratch: Path) -> Photo:
     folder = scratch.joinpath(*document.absolute().parts[1:-1])
     folder.mkdir(parents=True, exist_ok=True)
     (folder / name).write_bytes(data)
-    return structs.replace(examine(folder / name), within_labels=True)
+    try:
+        photo = examine(folder / name)
+    except PhotoError as error:
+        raise StoreError(f"{name} is not beside this file, and the imageData in it is no photo.") from error
+    return structs.replace(photo, within_labels=True)

@@ -137,6 +137,13 @@ def test_a_database_url_is_kept_in_the_settings(tmp_path):
         create_project(tmp_path / "other", url=url)
 
 
+@pytest.mark.parametrize("url", ["nodatabase://host/beds", "beds", "sqlite:////nowhere/at/all.db"])
+def test_a_database_that_cannot_be_reached_is_told_and_leaves_no_folder(tmp_path, url):
+    with pytest.raises(StoreError, match=r"cannot be (reached|opened)"):
+        create_project(tmp_path / "beds", url=url)
+    assert not (tmp_path / "beds").exists()
+
+
 def test_a_network_drive_is_warned_of(tmp_path, caplog):
     mounts = tmp_path / "mounts"
     mounts.write_text(f"/dev/sda / ext4 rw 0 0\nserver:/x {tmp_path} nfs4 rw 0 0\n")

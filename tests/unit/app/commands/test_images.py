@@ -67,3 +67,11 @@ def test_photos_that_moved_are_linked_anew(beds, tmp_path):
     done = run("relink", beds, tmp_path / "moved")
     assert done.exit_code == 1
     assert "other.jpg is in none of these folders." in done.stderr
+
+
+def test_a_name_is_found_however_its_letters_are_composed_and_the_undoing_can_be_pasted(tmp_path):
+    project = tmp_path / "my beds"
+    create_project(project).close()
+    run("import", project, photo(tmp_path / "bed_\u00e9.jpg"))
+    assert f"fairyring put-back '{project}'" in run("take-out", project, "bed_e\u0301*").stderr
+    assert figures(project)["taken_out"] == 1

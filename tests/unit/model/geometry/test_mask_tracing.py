@@ -235,3 +235,10 @@ def test_noise_is_refused_before_it_is_traced() -> None:
         outline_of_rle({"size": [1000, 1000], "counts": [1] * 1_000_000})
     with pytest.raises(GeometryError, match="500000 counts"):
         outline_of_rle({"size": [10000, 10000], "counts": "1" * 100_000_000})
+
+
+def test_the_numbers_of_an_rle_may_be_written_with_a_point() -> None:
+    whole = {"size": [4, 4], "counts": [5, 2, 2, 2, 5]}
+    written = {"size": [4.0, 4.0], "counts": [5.0, 2.0, 2.0, 2.0, 5.0]}
+
+    assert outline_of_rle(written) == outline_of_rle(whole)

@@ -53,3 +53,16 @@ def test_photos_in_folders_keep_them(project, out, tmp_path, write_photo):
     assert (out / "images" / "tuesday" / "bed.png").read_bytes() == (
         tmp_path / "days/tuesday/bed.png"
     ).read_bytes()
+
+
+@pytest.mark.parametrize("ending", ["jpg", "jfif", "png", "webp"])
+def test_a_turned_photo_is_written_upright_without_a_word(project, out, tmp_path, capfd, ending):
+    exif = Image.Exif()
+    exif[0x0112] = 6
+    kind = "JPEG" if ending == "jfif" else None
+    Image.new("RGB", (60, 40)).save(tmp_path / f"turned.{ending}", format=kind, exif=exif)
+    import_paths(project, [tmp_path / f"turned.{ending}"])
+    export_coco(project, out, Wanted(only=Only.all))
+    with Image.open(out / "images" / f"turned.{ending}") as upright:
+        assert upright.size == (40, 60)
+    assert capfd.readouterr().err == ""

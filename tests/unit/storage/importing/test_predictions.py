@@ -58,7 +58,8 @@ def test_what_cannot_be_a_prediction_is_reported(beds, write_coco, square):
     )
     report = import_paths(beds, [file], as_="predictions")
     assert report.predictions == 1
-    assert [problem.where for problem in report.problems] == ["annotation 2", "annotation 3"]
+    where = [(problem.file, problem.where) for problem in report.problems]
+    assert where == [(str(file), "annotation 2"), (str(file), "annotation 3")]
 
 
 def test_a_prediction_that_is_only_a_circle_is_seen_as_that_circle(beds, write_coco):

@@ -1,5 +1,6 @@
 """Whose photo a COCO file speaks of: by base name and size, in the project or beside the file."""
 
+import json
 from unicodedata import normalize
 
 import pytest
@@ -145,3 +146,21 @@ def test_a_linked_folder_beside_the_file_is_not_followed(project, tmp_path, writ
     (file.parent / "images").symlink_to(tmp_path / "private")
     with pytest.raises(StoreError, match="images is a symbolic link; import what it points to"):
         import_paths(project, [file])
+
+
+@pytest.mark.parametrize(("data", "said"), [("aGVsb", "is damaged"), ("aGVsbG8=", "is no photo")])
+def test_a_photo_within_labels_that_is_none_is_told_without_a_path_of_the_import(beds, tmp_path, data, said):
+    points = [[1, 1], [30, 1], [30, 30]]
+    shape = {"label": "mushroom", "points": points, "shape_type": "polygon"}
+    file = tmp_path / "bed_9.json"
+    file.write_text(json.dumps({"shapes": [shape], "imagePath": "bed_9.png", "imageData": data}))
+    report = import_paths(beds, [file, beds.images / "bed_1.png"])
+    assert reasons(report) == [f"bed_9.png is not beside this file, and the imageData in it {said}."]
+
+
+def test_the_one_file_that_nothing_came_of_is_named_once(project, tmp_path):
+    empty = tmp_path / "empty.png"
+    empty.touch()
+    with pytest.raises(StoreError) as told:
+        import_paths(project, [empty])
+    assert str(told.value).count(str(empty)) == 1
