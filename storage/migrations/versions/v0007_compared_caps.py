@@ -36,5 +36,5 @@ def upgrade() -> None:
         sqlite_autoincrement=True,
         sqlite_strict=True,
     )
-    op.create_index(op.f("ix_compared_cap_run"), "compared_cap", ["run", "image"], unique=False)
+    op.create_index(op.f("ix_compared_cap_run_image"), "compared_cap", ["run", "image"], unique=False)
     op.execute("DELETE FROM comparison")
