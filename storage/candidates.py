@@ -5,7 +5,7 @@ from __future__ import annotations
 from msgspec import Struct
 from sqlalchemy import Connection, and_, func, select
 
-from fairyring.storage.db.schema import comparison, edit, image, prediction, status_change
+from fairyring.storage.db.schema import change_set, comparison, edit, image, prediction, status_change
 from fairyring.storage.records import IMPORT
 
 
@@ -73,9 +73,16 @@ def candidates(
     ]
 
 
-def annotators(connection: Connection) -> list[str]:
-    """Who edited caps, by name; imports aside."""
-    return sorted(set(connection.execute(select(edit.c.user).distinct()).scalars()) - {IMPORT})
+def count_waiting(connection: Connection) -> int:
+    """How many images wait for a reviewer."""
+    waiting = select(func.count()).select_from(image).where(image.c.status == "annotated")
+    return connection.execute(waiting).scalar_one()
+
+
+def people(connection: Connection) -> list[str]:
+    """Who changed anything, by name; imports aside."""
+    # Of change sets, as edits hold whole caps and take long to read through.
+    return sorted(set(connection.execute(select(change_set.c.user).distinct()).scalars()) - {IMPORT})
 
 
 def _reopened(connection: Connection) -> set[int]:

@@ -64,6 +64,18 @@ def review(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
 
 @commands.command()
+def desk(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time the reviewer's desk with 1000 images of 60 caps, and have a script decide 50 of them by keys.
+
+    Example: `fairyring bench desk --json`
+    """
+    with driving_a_browser():
+        from fairyring.app.bench.browser.desk import desk_rows
+
+    print_rows("desk", desk_rows(quick=quick), as_json=as_json)
+
+
+@commands.command()
 def page(*, quick: Quick = False, as_json: AsJson = False) -> None:
     """Time the server's start, and count requests and bytes of a first and a second visit to the page.
 

@@ -24,7 +24,7 @@ from fairyring.app.review.queueing import (
     sampled,
     standing_of,
 )
-from fairyring.storage.candidates import Candidate, annotators, candidates
+from fairyring.storage.candidates import Candidate, candidates, count_waiting, people
 from fairyring.storage.queues import decisions_in, queue_of
 from fairyring.storage.records import Queue, SamplingPlan
 
@@ -113,7 +113,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 def _load(connection: Connection, *, user: str) -> _Shown:
     queue = queue_of(connection, user)
     standing = standing_of(queue, decisions_in(connection, queue)) if queue else None
-    return _Shown(queue, standing, len(candidates(connection)), annotators(connection))
+    return _Shown(queue, standing, count_waiting(connection), people(connection))
 
 
 def _size(size: int, lot: int) -> Markup:

@@ -98,7 +98,7 @@ def test_help_imports_nothing_heavy():
     assert HEAVY & set(done.stderr.split()) == set()
 
 
-@pytest.mark.parametrize("name", ["editor", "page", "review", "store"])
+@pytest.mark.parametrize("name", ["desk", "editor", "page", "review", "store"])
 def test_without_playwright_a_benchmark_in_a_browser_says_what_to_type(name):
     script = (
         f"import sys; sys.argv = ['fairyring', 'bench', '{name}']; sys.modules['playwright'] = None\n"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairyring.storage.candidates import annotators, candidates
+from fairyring.storage.candidates import candidates, count_waiting, people
 from fairyring.storage.journal import commit
 from fairyring.storage.queues import decisions_in, end_queue, make_queue, queue_of
 from fairyring.storage.records import Cap, StatusEdit, Verdict
@@ -46,7 +46,8 @@ def test_what_is_annotated_waits_and_what_is_approved_does_not(annotated):
     assert [each.image for each in read(annotated, candidates)] == [2]
     assert [each.image for each in read(annotated, candidates, unfinished=True)] == [2, 3]
     assert [each.image for each in read(annotated, candidates, annotator="bob", unfinished=True)] == [3]
-    assert read(annotated, annotators) == ["ann", "bob"]
+    assert read(annotated, count_waiting) == 1
+    assert read(annotated, people) == ["ann", "bob", "rev"]
 
 
 def test_an_edit_after_the_approval_brings_an_image_back_as_reopened(annotated):
