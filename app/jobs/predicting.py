@@ -301,7 +301,8 @@ def _prediction(nth: int, seen: SeenCap, fit: Fit) -> NewPrediction:
 
 
 def _size_of(config: NetworkConfig) -> str:
-    return next((name for name, size in SIZES.items() if size == config), f"{config.backbone}, own settings")
+    plain = msgspec.structs.replace(config, second_look=0)
+    return next((name for name, size in SIZES.items() if size == plain), f"{config.backbone}, own settings")
 
 
 def counted(count: int, what: str) -> str:

@@ -216,9 +216,10 @@ def _upon_backbone(recipe: Recipe, path: Path) -> PRSOLOv2:
 
 def shipped_for(recipe: Recipe) -> str | None:
     """Path of the shipped weights if they are of the recipe's network, else None."""
-    if not SHIPPED.exists() or load_weights(SHIPPED).network.config != recipe.network:
+    if not SHIPPED.exists():
         return None
-    return str(SHIPPED)
+    shipped = structs.replace(load_weights(SHIPPED).network.config, second_look=recipe.network.second_look)
+    return str(SHIPPED) if shipped == recipe.network else None
 
 
 def continuation_of(out: Path, asked: Asked) -> Start:
