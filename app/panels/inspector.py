@@ -20,11 +20,13 @@ from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.panels.several import selected_caps, several_facts
 from fairyring.app.panels.status import run_badge
 from fairyring.app.panels.tags import tags_of
+from fairyring.app.panels.verdicts import open_demand
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.contents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
+from fairyring.storage.verdicts import verdicts_of
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,8 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
         return first_steps(workspace.project)
     match selected_caps(caps, session.selection):
         case []:
-            return summary(caps)
+            said = await workspace.read(lambda connection: verdicts_of(connection, caps.image.id))
+            return summary(caps, open_demand(said))
         case [Annotation() as annotation]:
             return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
         case [Prediction() as prediction]:
@@ -150,8 +153,8 @@ def _quality(prediction: Prediction) -> Facts:
     return [("Quality", figure)]
 
 
-def summary(caps: ImageCaps) -> Markup:
-    """Counts of the image on screen and its tags, shown while nothing is selected."""
+def summary(caps: ImageCaps, demand: str | None = None) -> Markup:
+    """Counts of the image on screen and its tags, and what a reviewer demands, while nothing is selected."""
     live = [a for a in caps.annotations.values() if not a.deleted]
     real = [a for a in live if not a.cap.ignored]
     touched = {a.cap.prediction for a in caps.annotations.values()}
@@ -161,6 +164,8 @@ def summary(caps: ImageCaps) -> Markup:
         ("Ignored", len(live) - len(real)),
         ("Predictions", f"{waiting} open" if waiting else "none open"),
     ]
+    if demand is not None:
+        facts.insert(0, ("Review", element("strong", demand)))
     title = (element("strong", "The image"), worded_button("tour", class_="fr-tour fr-push"))
     below = (tags_of(caps.image), None if caps.predictions or live else offer_prediction(caps.image))
     return card(*title, facts=facts, below=element("div", *below))

@@ -34,6 +34,12 @@ def sentence_of(verdict: GivenVerdict) -> str:
     return f"{told}: {verdict.words}" if verdict.words else f"{told}."
 
 
+def open_demand(verdicts: Sequence[GivenVerdict]) -> str | None:
+    """Why an image was last sent back or rejected; None where it was not, or was approved since."""
+    said = [each for each in verdicts if each.annotation is None and each.says != "comment"]
+    return sentence_of(said[-1]) if said and said[-1].says in ("sent_back", "rejected") else None
+
+
 def _row(verdict: GivenVerdict) -> Markup:
     when = f"{verdict.made_at[:16].replace('T', ' ')} UTC"
     lead = None

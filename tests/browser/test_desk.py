@@ -105,8 +105,11 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     assert (status_of(project, 1), status_of(project, 2)) == ("new", "new")
     tab.press("p")
     on_image(tab, 2)
+    card = tab.page.get_by_label("Selected cap")
+    card.get_by_text("Rev rejected: Out of focus").wait_for()
     tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_text("Rev rejected: Out of focus").wait_for()
+    said = tab.page.get_by_label("Said of this image")
+    said.get_by_text("Rev rejected: Out of focus").wait_for()
 
 
 def test_a_comment_on_a_cap_leads_back_to_the_cap(project: Path, server: Server, open_tab: OpenTab) -> None:
