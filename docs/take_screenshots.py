@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from pathlib import Path
+
+from playwright.sync_api import ViewportSize
 
 from fairyring.app.bench.browser.tab import Tab, centroid, chromium
 from fairyring.app.bench.serving import Server
 from fairyring.app.demo.making import make_demo
 
 PICTURES = Path(__file__).parent / "pictures"
-WINDOW = {"width": 1440, "height": 860}
+WINDOW: ViewportSize = {"width": 1440, "height": 860}
 
 
 def main() -> None:
@@ -38,8 +41,13 @@ def _walk(tab: Tab) -> None:
     place = centroid(middle["cap"]["visible"][0])
     tab.select(place)
     tab.press("z")
+    # What the server has to say of it: in the panel, and in the line at the bottom.
+    tab.page.get_by_text(re.compile("^Cap [0-9a-f]{8}")).wait_for()
+    tab.page.locator(".fairyring-caption").wait_for()
+    tab.page.wait_for_function("() => !window.fairyring.state.asking", timeout=120_000)
     _take(tab, "selected")
     _drag_a_vertex(tab, middle["cap"]["visible"][0])
+    _circle_loosely(tab, middle)
     _mark_some(tab, caps[:12])
     tab.press("Escape", "v", "f")
     tab.page.get_by_role("tab", name="Review").click()
@@ -58,6 +66,17 @@ def _drag_a_vertex(tab: Tab, part: list[float]) -> None:
     tab.page.mouse.up()
     tab.saved()
     tab.press("Control+z")
+
+
+def _circle_loosely(tab: Tab, cap: dict) -> None:
+    """Draws a cap anew, by a loose circle; the rim near it is offered."""
+    x, y, radius = cap["whole"]["cx"], cap["whole"]["cy"], (cap["whole"]["a"] + cap["whole"]["b"]) / 2
+    tab.press("Delete", "c")
+    tab.drag((x + 3, y - 3), (x + 3 + 1.1 * radius, y - 3))
+    tab.wait_for("window.fairyring.state.suggestion")
+    _take(tab, "rim")
+    tab.press("Escape", "v", "Control+z", "Control+z")
+    tab.saved()
 
 
 def _is_well_inside(cap: dict) -> bool:

@@ -81,6 +81,26 @@ export default {
       ]
     },
     {
+      "title": "Image",
+      "commands": [
+        { "name": "next_image", "keys": ["N", "PageDown"], "words": "Next image" },
+        { "name": "previous_image", "keys": ["P", "PageUp"], "words": "Previous image" },
+        { "name": "done", "keys": ["Ctrl+Enter"], "words": "Mark as annotated and go to the next", "label": "Done" },
+        { "name": "to_do", "keys": [], "words": "Set the status to “to do”", "label": "To do" },
+        { "name": "annotated", "keys": [], "words": "Set the status to “annotated”", "label": "Annotated" },
+        { "name": "approved", "keys": [], "words": "Set the status to “approved”", "label": "Approved" },
+        { "name": "fit", "keys": ["F"], "words": "Fit the photo", "label": "Fit" },
+        { "name": "zoom_selection", "keys": ["Z"], "words": "Zoom to the selection" },
+        { "name": "zoom_in", "keys": ["+", "="], "words": "Zoom in" },
+        { "name": "zoom_out", "keys": ["-"], "words": "Zoom out" },
+        { "name": "loupe", "keys": ["Q"], "words": "A loupe at the pointer, or none" },
+        { "name": "plain_photo", "keys": [], "words": "Show the photo as it is", "label": "Photo as it is" },
+        { "name": "tour", "keys": [], "words": "Try out the tools in a minute", "label": "Take the tour (1 min)" },
+        { "name": "switch_focus", "keys": ["F6"], "words": "From the photo to the panel and back" },
+        { "name": "help", "keys": ["F1", "?"], "words": "This list", "label": "Keys" }
+      ]
+    },
+    {
       "title": "Caps",
       "commands": [
         { "name": "next_cap", "keys": ["Tab"], "words": "Next cap" },
@@ -112,26 +132,6 @@ export default {
         { "name": "push_down", "keys": ["Shift+↓"], "words": "Move by a pixel" },
         { "name": "undo", "keys": ["Ctrl+Z"], "words": "Undo; while drawing, the last point", "label": "Undo" },
         { "name": "redo", "keys": ["Ctrl+Shift+Z", "Ctrl+Y"], "words": "Redo", "label": "Redo" }
-      ]
-    },
-    {
-      "title": "Image",
-      "commands": [
-        { "name": "next_image", "keys": ["N", "PageDown"], "words": "Next image" },
-        { "name": "previous_image", "keys": ["P", "PageUp"], "words": "Previous image" },
-        { "name": "done", "keys": ["Ctrl+Enter"], "words": "Mark as annotated and go to the next", "label": "Done" },
-        { "name": "to_do", "keys": [], "words": "Set the status to “to do”", "label": "To do" },
-        { "name": "annotated", "keys": [], "words": "Set the status to “annotated”", "label": "Annotated" },
-        { "name": "approved", "keys": [], "words": "Set the status to “approved”", "label": "Approved" },
-        { "name": "fit", "keys": ["F"], "words": "Fit the photo", "label": "Fit" },
-        { "name": "zoom_selection", "keys": ["Z"], "words": "Zoom to the selection" },
-        { "name": "zoom_in", "keys": ["+", "="], "words": "Zoom in" },
-        { "name": "zoom_out", "keys": ["-"], "words": "Zoom out" },
-        { "name": "loupe", "keys": ["Q"], "words": "A loupe at the pointer, or none" },
-        { "name": "plain_photo", "keys": [], "words": "Show the photo as it is", "label": "Photo as it is" },
-        { "name": "tour", "keys": [], "words": "Try out the tools in a minute", "label": "Take the tour (1 min)" },
-        { "name": "switch_focus", "keys": ["F6"], "words": "From the photo to the panel and back" },
-        { "name": "help", "keys": ["F1", "?"], "words": "This list", "label": "Keys" }
       ]
     },
     {
