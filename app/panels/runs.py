@@ -73,11 +73,11 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def redraw() -> None:
         rows = await workspace.read(_newest_first)
-        listed.content = run_list(rows).html
         names: Sequence[str] = tuple(row.run.name for row in rows) or NO_RUNS
         for dropdown in (chosen, other):
             if tuple(dropdown.options) != names:
                 dropdown.options = names
+        listed.content = run_list(rows).html
         row = next((row for row in rows if row.run.name == chosen.value), None)
         shown.content = run_facts(row).html if row else ""
         export.disabled = not rows
