@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
-    help="Measure a network, in ten tables.",
+    help="Measure a network: each command prints a table of its own.",
 )
 
 Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]

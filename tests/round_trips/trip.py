@@ -31,6 +31,8 @@ PACKAGES = {
     "labelme": "labelme",
 }
 """The packages by the name under which they are imported."""
+SCRIPTS = {package: (TOOLS / f"of_{package}.py").read_text() for package in PACKAGES}
+"""Read at once, as whoever runs a trip may not be allowed into the folder of the code."""
 Document = dict[str, Any]
 
 
@@ -81,8 +83,7 @@ def taken_through(package: str, folder: Path, *, python: str = sys.executable) -
         _fill(project, folder)
         before = _exported(project, export)
         out.mkdir()
-        script = TOOLS / f"of_{package}.py"
-        _run([python, script, export, out])
+        _run([python, "-c", SCRIPTS[package], export, out])
         labels = sorted(out.glob("*.json"))
         back = import_paths(project, labels, as_=ImportAs.annotations)
     with create_project(folder / "other") as other:
