@@ -83,7 +83,8 @@ class Project:
     def write(self, work: Callable[[Connection], T]) -> T:
         """Runs ``work`` in one transaction on the writer thread; on disk when this returns.
 
-        Whatever ``work`` raises rolls everything back and is raised here.
+        Whatever ``work`` raises rolls everything back and is raised here. So does Ctrl+C, unless it comes
+        when all is stored already: then it is passed over.
 
         Raises:
             StoreError: a full or failing disk, a database locked by another program, or a read-only project.
@@ -101,16 +102,26 @@ class Project:
         """
         if threading.current_thread().name.startswith("store"):
             raise RuntimeError("write() within write(): hand the connection on instead")
-        return self._thread.submit(self._transact, work).result()
+        stopped = threading.Event()
+        transaction = self._thread.submit(self._transact, work, stopped)
+        try:
+            return transaction.result()
+        except KeyboardInterrupt:
+            # Ctrl+C reaches whoever waits; what follows must know whether this was stored.
+            stopped.set()
+            return transaction.result()
 
     def require_writable(self) -> None:
         """Raises StoreError where nothing may be stored."""
         if self.read_only:
             raise StoreError(f"{self.folder} is read-only; make its folder and files writable to change it.")
 
-    def _transact(self, work: Callable[[Connection], T]) -> T:
+    def _transact(self, work: Callable[[Connection], T], stopped: threading.Event) -> T:
         with explained(str(self.folder)), self._writer.begin() as connection:
-            return work(connection)
+            done = work(connection)
+            if stopped.is_set():
+                raise KeyboardInterrupt
+            return done
 
     def written_by_others(self) -> int | None:
         """A number that changes when another process writes; None where the database cannot tell."""

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from fairyring.app.commands import bench_network
+from fairyring.app.commands.progress import time_told
 from fairyring.app.commands.rows import AsJson, print_rows
 from fairyring.model.contour.method_names import MethodName
 from fairyring.model.errors import FairyringError
@@ -21,6 +22,13 @@ commands = typer.Typer(
 )
 
 commands.add_typer(bench_network.commands, name="network")
+
+
+@commands.callback()
+def measuring(context: typer.Context) -> None:
+    """Says every few seconds that it is still measured."""
+    context.with_resource(time_told("Measuring"))
+
 
 BROWSER_MISSING = """This is measured in a browser, which playwright drives: pip install 'fairyring[bench]'"""
 
@@ -37,6 +45,21 @@ def store(*, quick: Quick = False, as_json: AsJson = False) -> None:
         from fairyring.app.bench.store import store_rows
 
     print_rows("store", store_rows(quick=quick), as_json=as_json)
+
+
+@commands.command("commands")
+def whole_commands(*, quick: Quick = False, as_json: AsJson = False) -> None:
+    """Time import and export of 120 000 caps, from the command to the prompt, beside other readers.
+
+    Example: `fairyring bench commands --json`
+    """
+    import tempfile
+
+    from fairyring.app.bench.round_trip import round_trip_rows
+
+    with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
+        rows = round_trip_rows(Path(folder), quick=quick)
+    print_rows("commands", rows, as_json=as_json)
 
 
 @commands.command()

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from fairyring.app.commands.files import named, write_json
-from fairyring.app.commands.progress import steps_shown
+from fairyring.app.commands.progress import steps_shown, time_told
 from fairyring.model.contour.method_names import MethodName
 
 Labels = Annotated[Path, typer.Argument(metavar="COCO.json[.gz]", help="COCO file with checked outlines.")]
@@ -53,7 +53,7 @@ def priors(
     from fairyring.model.contour.priors import write_priors
 
     document = read_document(labels)
-    with named(labels):
+    with named(labels), time_told("Estimating priors"):
         found = estimate_priors(document, source=labels.name)
     write_priors(found, out)
     typer.echo(f"Priors from {labels} in {out}", err=True)

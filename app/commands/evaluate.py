@@ -14,6 +14,7 @@ import typer
 from msgspec import convert
 
 from fairyring.app.commands.files import about
+from fairyring.app.commands.progress import time_told
 from fairyring.app.commands.rows import AsJson, console_of_tables
 from fairyring.model.errors import FairyringError, FileError
 
@@ -53,7 +54,7 @@ def masks(
     from fairyring.model.evaluate.masks import figures_of_masks
     from fairyring.model.evaluate.pages import pages_of, truth_of
 
-    with _naming(truth, predicted):
+    with _naming(truth, predicted), time_told("Comparing masks"):
         # No text of a file is held longer than until its caps are read.
         read = truth_of(read_document(truth), masks=True, centres=False)
         figures = figures_of_masks(pages_of(read_document(predicted), read))
@@ -98,7 +99,8 @@ def centres(
     from fairyring.model.evaluate.two_runs import difference_of
 
     pairing = CapPairing(by=by.value, least_iou=iou or USUAL.least_iou, least_score=score)
-    runs = _evaluated_runs(files[:-1], files[-1], pairing)
+    with time_told("Comparing centres"):
+        runs = _evaluated_runs(files[:-1], files[-1], pairing)
     figures = [run.figures for run in runs]
     for each in figures:
         _warn_of_strange_ids(each)

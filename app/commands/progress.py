@@ -78,6 +78,24 @@ def steps_shown() -> Iterator[Progress]:
                 signal.signal(number, handler)
 
 
+@contextmanager
+def time_told(what: str) -> Iterator[None]:
+    """Says every few seconds for how long the block has been at it, where it cannot say how far it is."""
+    began, ended = time.monotonic(), threading.Event()
+
+    def tell() -> None:
+        while not ended.wait(EVERY_S):
+            typer.echo(f"{what}: {time.monotonic() - began:.0f} s", err=True)
+
+    telling = threading.Thread(target=tell, daemon=True)
+    telling.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        telling.join()
+
+
 def _ignored(_done: int, _total: int, _what: str) -> None:
     pass
 

@@ -1,7 +1,6 @@
 """How commands end that are stopped, or that meet an error nobody foresaw."""
 
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -13,8 +12,6 @@ from typer.testing import CliRunner
 from fairyring.app.cli import app
 from fairyring.app.commands import info, progress
 from fairyring.storage.project import create_project
-from tests.strangers.bed import photo, write
-from tests.strangers.coco import caps, document, image
 
 FAIRYRING = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
 
@@ -23,35 +20,6 @@ FAIRYRING = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
 def project(tmp_path):
     create_project(tmp_path / "beds").close()
     return tmp_path / "beds"
-
-
-@pytest.fixture
-def many_photos(tmp_path):
-    """A folder whose import takes long enough to be stopped."""
-    for number in range(400):
-        photo(tmp_path / "photos" / f"bed_{number}.jpg", moved=number / 40)
-    images = [image(number + 1, f"bed_{number}.jpg") for number in range(400)]
-    entries = [entry for number in range(400) for entry in caps(number + 1, first=2 * number + 1)]
-    write(tmp_path / "photos" / "labels.json", document(images, entries))
-    return tmp_path / "photos"
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_import_that_is_stopped_says_what_was_kept(project, many_photos, number):
-    running = subprocess.Popen(
-        [*FAIRYRING, "import", str(project), str(many_photos)], stderr=subprocess.PIPE, text=True
-    )
-    time.sleep(2.5)
-    running.send_signal(number)
-    _, said = running.communicate(timeout=120)
-    stored = int(CliRunner().invoke(app, ["info", str(project)]).stdout.split(" images")[0].rsplit(" ", 1)[1])
-    assert running.returncode == 130
-    assert stored in (0, 400)
-    expected = (
-        "Everything is stored: 400 images" if stored else "Nothing was changed; the same command begins anew."
-    )
-    assert f"fairyring: stopped. {expected}" in said
-    assert "Traceback" not in said
 
 
 def test_an_error_nobody_foresaw_ends_in_a_sentence_with_a_file_to_report(project, monkeypatch):
@@ -85,6 +53,15 @@ def test_without_a_terminal_progress_is_a_line_every_few_seconds(monkeypatch, ca
             report(done, 12, "Copying photos")
             now[0] += 1.0
     assert capsys.readouterr().err.splitlines() == ["Copying photos: 5 of 12", "Copying photos: 10 of 12"]
+
+
+def test_work_that_cannot_say_how_far_it_is_says_how_long_it_has_been_at_it(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "EVERY_S", 0.02)
+    with progress.time_told("Comparing masks"):
+        time.sleep(0.5)
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) > 1
+    assert set(said) <= {"Comparing masks: 0 s", "Comparing masks: 1 s"}
 
 
 def test_a_variable_that_is_wrong_is_named(project):
