@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from fairyring.app.commands.files import write_bytes
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
 
@@ -40,7 +40,7 @@ def review(
     from fairyring.storage.project import open_project
 
     with open_project(folder) as project:
-        with shown_on_stderr() as progress:
+        with steps_shown() as progress:
             found = review_of(project, only_sure=sure, progress=progress)
         if report is not None:
             _write_report(project, found, report)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.progress import shown_on_stderr
+from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
 
@@ -108,7 +108,7 @@ def compare(
     from fairyring.storage.runs import require_run
 
     pairing = CapPairing(least_iou=iou, least_score=score)
-    with open_project(folder) as project, shown_on_stderr() as progress:
+    with open_project(folder) as project, steps_shown() as progress:
         with project.read() as connection:
             first, second = require_run(connection, run), require_run(connection, other)
         compared = compare_runs(project, first, second, pairing, progress=progress)

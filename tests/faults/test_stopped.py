@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,6 +23,7 @@ from fairyring.app.bench.projects import Bed, write_labels
 from fairyring.storage.backup import back_up
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
+from tests.support.how_much import by_form
 
 pytestmark = pytest.mark.timeout(900)
 FAIRYRING = """
@@ -152,8 +154,17 @@ def lying_in(folder: Path) -> set[str]:
     }
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda number: number.name)
-@pytest.mark.parametrize("errand", ERRANDS, ids=lambda errand: errand.command)
+def errands() -> list[Any]:
+    """In the short form every command is stopped once, by Ctrl+C and by SIGTERM in turn; else by both."""
+    signals = (signal.SIGINT, signal.SIGTERM)
+    return [
+        pytest.param(errand, number, id=f"{errand.command}, {number.name}")
+        for nth, errand in enumerate(ERRANDS)
+        for number in by_form(short=signals[nth % 2 : nth % 2 + 1], usual=signals, long=signals)
+    ]
+
+
+@pytest.mark.parametrize(("errand", "number"), errands())
 def test_a_command_that_is_stopped_says_what_was_kept(
     errand: Errand, number: signal.Signals, folder: Path
 ) -> None:
