@@ -170,7 +170,7 @@ def _caps(
             caps[image_id].append(_cap(entry, where, category_of(entry, categories), faults))
     faults += [_lost(image_id, count) for image_id, count in lost.items()]
     faults += [
-        Fault(f"annotation {shown(own)}", f"{count} annotations have this id; all are taken.")
+        Fault(f"annotation {shown(own)}", f"{count} annotations have this id; it is that of the first.")
         for own, count in ids.items()
         if own is not None and count > 1
     ]

@@ -37,16 +37,22 @@ def check_caps(caps: Sequence[FoundCap], *, photo: Photo, file: str) -> tuple[li
     """The caps that can be stored, each with a number of its own, and what is wrong with the others."""
     good: list[FoundCap] = []
     problems: list[Problem] = []
-    by_uid: dict[str | None, Cap] = {}
+    by_uid: dict[str | None, FoundCap] = {}
     for cap in caps:
         try:
             checked, left_out = _checked(structs.replace(cap, file=file), photo)
         except FairyringError as error:
             problems.append(Problem(file, cap.where, str(error)))
             continue
-        if by_uid.setdefault(checked.uid, checked.cap) != checked.cap:
+        if by_uid.setdefault(checked.uid, checked).cap != checked.cap:
             # A tool has copied a cap with all its keys: it is another one.
             checked = structs.replace(checked, uid=content_number(checked.cap, photo=photo), id=None)
+        first = by_uid.setdefault(checked.uid, checked)
+        if first is not checked:
+            problems.append(
+                Problem(file, cap.where, f"It has the outline of {first.where}, which was taken.")
+            )
+            continue
         good.append(checked)
         problems += [Problem(file, cap.where, reason) for reason in left_out]
     return good, problems

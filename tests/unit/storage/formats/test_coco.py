@@ -160,7 +160,7 @@ def test_duplicate_ids_are_reported():
     assert [image.file_name for image in found.images] == ["bed.png"]
     assert reasons(found) == [
         ("image 1", "Another image has this id; only the first is taken."),
-        ("annotation 5", "2 annotations have this id; all are taken."),
+        ("annotation 5", "2 annotations have this id; it is that of the first."),
     ]
     assert len(found.images[0].caps) == 2
 

@@ -102,3 +102,17 @@ def test_the_counters_follow_an_import(beds, write_coco, square):
     with beds.read() as connection:
         row = list_images(connection, ImageFilter(search="bed_1.png")).rows[0]
     assert (row.caps, row.ignored) == (1, 1)
+
+
+def test_of_caps_with_one_outline_in_a_file_the_first_is_taken_and_the_others_are_told(
+    beds, write_coco, square
+):
+    twice = {"segmentation": square}
+    other = {"segmentation": square, "category_id": 2}
+    categories = [{"id": 1, "name": "mushroom"}, {"id": 2, "name": "bud"}]
+    report = import_paths(beds, [write_coco([twice, twice, other], categories=categories)])
+    assert (report.annotations, report.known) == (1, 0)
+    assert [(each.where, each.reason) for each in report.problems] == [
+        (f"annotation {n}", "It has the outline of annotation 1, which was taken.") for n in (2, 3)
+    ]
+    assert [each.cap.category for each in annotations_of(beds)] == ["mushroom"]

@@ -53,7 +53,7 @@ def test_what_cannot_be_a_prediction_is_reported(beds, write_coco, square):
         [
             {"segmentation": square, "score": 0.5},
             {"segmentation": TRIANGLE, "ignore": True},
-            {"segmentation": TRIANGLE, "score": 50},
+            {"segmentation": [[70, 40, 90, 40, 80, 60]], "score": 50},
         ]
     )
     report = import_paths(beds, [file], as_="predictions")
