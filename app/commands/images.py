@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
@@ -19,6 +20,7 @@ from fairyring.model.errors import FairyringError
 
 if TYPE_CHECKING:
     from fairyring.storage.project import Project
+    from fairyring.storage.taken_out import TakenOut
 
 Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="File names, or patterns such as bed_*.")]
 By = Annotated[str, typer.Option("--by", metavar="NAME", help="Who does it.")]
@@ -46,7 +48,9 @@ def take_out(folder: ProjectFolder, names: Names, *, by: By = "command", as_json
 
 def put_back(
     folder: ProjectFolder,
-    names: Annotated[list[str] | None, typer.Argument(metavar="[NAME...]", help="Which; else all.")] = None,
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME...]", help="Which, by name or number; else all.")
+    ] = None,
     *,
     as_json: AsJson = False,
 ) -> None:
@@ -60,15 +64,31 @@ def put_back(
 
     with open_project(folder) as project, steps_shown():
         kept = taken_out(project)
-        wanted = [each for each in kept if names is None or _is_called(each.file_name, names)]
+        wanted = [
+            each
+            for each in kept
+            if names is None or str(each.number) in names or _is_called(each.file_name, names)
+        ]
         if not wanted:
             there = ", ".join(each.file_name for each in kept) or "nothing"
             raise FairyringError(f"Nothing is put back: {there} was taken out of {folder}.")
+        _require_one_of_each_name(wanted)
         put(project, wanted)
     if as_json:
         typer.echo(json.dumps({"images": len(wanted), "annotations": sum(each.caps for each in wanted)}))
     else:
         typer.echo(f"Put back into {folder}: {', '.join(each.file_name for each in wanted)}")
+
+
+def _require_one_of_each_name(wanted: Sequence[TakenOut]) -> None:
+    for name, count in Counter(each.file_name for each in wanted).items():
+        if count > 1:
+            which = ", ".join(
+                f"{each.number} ({each.caps} caps, taken out {each.made_at[:16]})"
+                for each in wanted
+                if each.file_name == name
+            )
+            raise FairyringError(f"{name} was taken out {count} times; give the number of one: {which}.")
 
 
 def relink(

@@ -75,3 +75,14 @@ def test_a_name_is_found_however_its_letters_are_composed_and_the_undoing_can_be
     run("import", project, photo(tmp_path / "bed_\u00e9.jpg"))
     assert f"fairyring put-back '{project}'" in run("take-out", project, "bed_e\u0301*").stderr
     assert figures(project)["taken_out"] == 1
+
+
+def test_of_two_of_one_name_that_were_taken_out_the_number_says_which(tmp_path):
+    create_project(tmp_path / "beds").close()
+    for moved in (0, 1):
+        run("import", tmp_path / "beds", photo(tmp_path / "in" / "bed.jpg", moved=moved))
+        run("take-out", tmp_path / "beds", "bed.jpg")
+    with pytest.raises(FairyringError, match=r"taken out 2 times; give the number of one: 2 .* 1 \(0 caps"):
+        run("put-back", tmp_path / "beds")
+    run("put-back", tmp_path / "beds", 1)
+    assert (figures(tmp_path / "beds")["images"], figures(tmp_path / "beds")["taken_out"]) == (1, 1)
