@@ -54,8 +54,8 @@ def learn(project: Project, *, steps: int, progress: Progress) -> Learnt:
 
 def _figures_before(project: Project, base: Path, progress: Progress) -> dict[str, float]:
     """Figures of the weights that are trained further, on the photos that the training will hold out."""
-    recipe = further()
     labels = labels_at([project.folder], lenient=True, progress=progress)
+    recipe = further(labels.examples)
     held_out = divided(labels, None, seed=recipe.seed).checked[: recipe.validate_images]
     if not held_out:
         return {}

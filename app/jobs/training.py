@@ -27,6 +27,7 @@ from fairyring.model.predict.shipped import RECIPE, SHIPPED
 from fairyring.model.progress import Progress
 from fairyring.model.train.checkpoint import CheckpointError
 from fairyring.model.train.circumstances import KEY
+from fairyring.model.train.data import Example
 from fairyring.model.train.loop import CARD, train
 from fairyring.model.train.recipe import Recipe, checked, read_recipe
 from fairyring.model.train.second_look import with_second_look
@@ -38,6 +39,8 @@ WARM_UP_SHARE = 0.1
 """Share of the iterations that warm up, where their number is given: the paper's 500 of 5000."""
 FURTHER, GENTLE_RATE, GENTLE_AVERAGE = 500, 2e-5, 0.98
 """Iterations, rate and average of weights that are trained further."""
+ENOUGH_CAPS = 100
+"""So many labelled caps, or one complete photo, are learnt from at the whole rate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +116,7 @@ def train_as_asked(
         if weights is None and is_project(sources[0]):
             weights = shipped_for(asked.recipe(Recipe()))
         goes_on = weights is not None and Path(weights).suffix == ".safetensors"
-        start = start_of(asked.recipe(further() if goes_on else Recipe()), weights)
+        start = start_of(asked.recipe(further(labels.examples) if goes_on else Recipe()), weights)
     photos = divided(labels, validation, seed=start.recipe.seed)
     record = record_of(labels, validation, photos)
     start = of_labels(start, record, out=out, resume=asked.resume)
@@ -148,14 +151,21 @@ def recipe_of(
     return checked(recipe if seed is None else structs.replace(recipe, seed=seed), where="The recipe")
 
 
-def further() -> Recipe:
-    """The recipe for training good weights further: that of the shipped ones, with gentler steps.
+def further(examples: Sequence[Example]) -> Recipe:
+    """The recipe for training good weights further on these photos: that of the shipped ones, more gently.
 
     The paper's rate, which is for a new network, has them forget most of what they know within a few steps.
+    A few caps of incomplete photos, seen over and over, would have them forget the others: with fewer than
+    ENOUGH_CAPS the rate is as much lower.
     """
     shipped = read_recipe(RECIPE)
+    caps = sum(ENOUGH_CAPS if example.complete else len(example.caps) for example in examples)
     return structs.replace(
-        shipped, iterations=FURTHER, warm_up=FURTHER // 10, rate=GENTLE_RATE, average=GENTLE_AVERAGE
+        shipped,
+        iterations=FURTHER,
+        warm_up=FURTHER // 10,
+        rate=GENTLE_RATE * min(1, max(1, caps) / ENOUGH_CAPS),
+        average=GENTLE_AVERAGE,
     )
 
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from fairyring.storage.project import open_project
+from fairyring.storage.records import Rules
+from fairyring.storage.rules import set_rules
 from tests.support.browser_side import BrowserSide
 from tests.support.plain_bed import make_empty_bed
 from tests.support.two_sides import TwoSides
@@ -36,6 +39,8 @@ def begin(made_once: Path, browser: BrowserSide, tmp_path_factory: pytest.TempPa
     def begin_() -> Iterator[TwoSides]:
         folder = tmp_path_factory.mktemp("trace")
         with open_project(shutil.copytree(made_once, folder / "beds")) as project:
+            # One person does everything here.
+            project.write(partial(set_rules, rules=Rules(approve_own=True)))
             yield TwoSides(project, browser)
         shutil.rmtree(folder)
 

@@ -8,6 +8,7 @@ import pytest
 
 from fairyring.model.errors import FairyringError
 from fairyring.model.network.weights import load_weights
+from fairyring.model.train.data import Example
 from fairyring.model.train.recipe import Recipe, read_recipe
 from fairyring.storage.project import Project
 from tests.support.sighted import RECIPE, SMALL, write_weights
@@ -79,6 +80,30 @@ def test_weights_of_ours_are_trained_further_in_gentle_steps_unless_a_recipe_say
     for number, options in enumerate([("--weights", base), ("--weights", "imagenet"), ("--config", recipe)]):
         assert sentence(train(labelled.folder, tmp_path / str(number), *options)) == "seen"
     gentle, paper, own = seen
-    assert (gentle.optimiser, gentle.rate, gentle.iterations, gentle.warm_up) == ("adamw", 2e-5, 500, 50)
+    assert (gentle.optimiser, gentle.iterations, gentle.warm_up) == ("adamw", 500, 50)
+    # Two caps are labelled, and nobody has called their photos complete.
+    assert gentle.rate == pytest.approx(0.02 * 2e-5)
     assert paper == Recipe()
     assert own == read_recipe(recipe)
+
+
+@pytest.mark.parametrize(
+    ("caps", "complete", "share"),
+    [(3, False, 0.03), (50, False, 0.5), (244, False, 1), (3, True, 1), (0, True, 1)],
+)
+def test_a_few_caps_of_photos_that_are_not_complete_are_learnt_in_smaller_steps(
+    caps: int, complete: bool, share: float
+) -> None:
+    from fairyring.app.jobs.training import further
+
+    photo = Example(path=Path("bed.jpg"), width=9, height=9, caps=[[]] * caps, complete=complete)
+    assert further([photo]).rate == pytest.approx(share * 2e-5)
+
+
+def test_caps_of_several_photos_count_together() -> None:
+    from fairyring.app.jobs.training import further
+
+    photos = [
+        Example(path=Path("bed.jpg"), width=9, height=9, caps=[[]] * 20, complete=False) for _ in range(3)
+    ]
+    assert further(photos).rate == pytest.approx(0.6 * 2e-5)
