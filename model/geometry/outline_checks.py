@@ -46,6 +46,8 @@ MAX_RIM = 1_000_000
 """Longest rim of all parts together, pixels: the rasteriser's time and memory go with it."""
 REACH = 4
 """How many image widths and heights a point may lie outside the image."""
+SLACK = 0.02
+"""Share of its radius by which a circle or an ellipse may miss the image."""
 LEAST_AREA = 1e-3
 """A polygon of less area than this, px², counts as having none."""
 LEAST_MARK = 1.0
@@ -132,7 +134,8 @@ def check_mark(mark: Mark, *, width: int, height: int) -> Mark:
     radii = (mark.r,) if isinstance(mark, Circle) else (mark.a, mark.b)
     if min(radii) < LEAST_RADIUS or max(radii) > REACH * max(width, height):
         raise GeometryError(f"A radius must be at least {LEAST_RADIUS} px and not many times the image.")
-    reach = max(radii)
+    # No ellipse follows a cap exactly: of one at the image's border only what it leaves out may be in sight.
+    reach = (1 + SLACK) * max(radii)
     left, top, right, bottom = mark.cx - reach, mark.cy - reach, mark.cx + reach, mark.cy + reach
     _check_meets(left, top, right, bottom, width=width, height=height)
     return mark if isinstance(mark, Circle) else canonical_ellipse(*figures)
