@@ -1,44 +1,41 @@
-"""``fairyring bench network``: the tables of docs/results.md, each by one command."""
+"""``fairyring bench network``: tables about weights as they are, each by one command."""
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import partial
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairyring.app.commands import bench_trained
 from fairyring.app.commands.network import Device, Fast, OnDevice, passes_of
+from fairyring.app.commands.network_tables import (
+    Beds,
+    Count,
+    Real,
+    Weights,
+    detecting,
+    folder_for_beds,
+    labelled_sets,
+)
 from fairyring.app.commands.progress import shown_on_stderr
 from fairyring.app.commands.rows import AsJson, print_rows
 
 if TYPE_CHECKING:
     from fairyring.app.bench.network.sets import LabelledPhotos
-    from fairyring.model.photo import Pixels
-    from fairyring.model.predict.seen import Detection
-    from fairyring.model.progress import Progress
+
 
 commands = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
     help="Measure a network: each command prints a table of its own.",
 )
+commands.add_typer(bench_trained.commands)
 
-Weights = Annotated[Path | None, typer.Option(help="Else the shipped ones.")]
-Beds = Annotated[Path | None, typer.Option(help="Folder where the rendered beds are kept, and looked for.")]
-Count = Annotated[int | None, typer.Option(min=1, help="Fewer beds, to see that it works.")]
-Real = Annotated[Path | None, typer.Option(help="Folder of photos with checked.json, measured too.")]
 Pictures = Annotated[
     Path | None, typer.Option(help="Folder for pictures of the best, a typical and the worst image.")
 ]
-
-Runs = Annotated[Path, typer.Option(help="Folder for the beds and the runs; runs there are gone on with.")]
-Iterations = Annotated[int, typer.Option(min=1, help="Of every network.")]
-TrainBeds = Annotated[int, typer.Option(min=1, help="Of each preset, to train on.")]
-CropSide = Annotated[int, typer.Option(min=64, help="Side of the crops, photo pixels.")]
 
 
 @commands.command()
@@ -114,7 +111,7 @@ def clicks(
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
     rows: list[dict[str, Any]] = []
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         for name in TEST_BEDS:
             rows += click_rows(predictor, rendered(name, folder, count=count, progress=progress))
     if real is not None:
@@ -145,7 +142,7 @@ def quality(
     passes = passes_of(fast=fast)
     predictor = network_of(weights or SHIPPED, device=device, least_score=0, passes=passes).predictor
     rows: list[dict[str, Any]] = []
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
         for photos in [*sets, *([] if real is None else [checked(real)])]:
             rows += quality_rows(predictor, photos, progress=progress)
@@ -177,7 +174,7 @@ def wholes(
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
     rows: list[dict[str, Any]] = []
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
         for photos in [*sets, *([] if real is None else [checked(real)])]:
             rows += whole_rows(predictor, photos, widened=widened or (1.0,), progress=progress)
@@ -207,42 +204,10 @@ def peers(
 
     predictor = network_of(weights or SHIPPED, device=device, least_score=0).predictor
     rows: list[dict[str, Any]] = []
-    with _folder(beds) as folder, shown_on_stderr() as progress:
-        for photos in _sets(folder, count, real, progress):
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
+        for photos in labelled_sets(folder, count, real, progress):
             rows += peer_rows(predictor, photos, diameter=diameter, progress=progress)
     print_rows("peers", rows, as_json=as_json)
-
-
-@commands.command()
-def alike(
-    *,
-    out: Runs,
-    iterations: Iterations = 600,
-    train_beds: TrainBeds = 40,
-    crop: CropSide = 256,
-    count: Count = None,
-    real: Real = None,
-    device: OnDevice = Device.auto,
-    as_json: AsJson = False,
-) -> None:
-    """PR-SOLOv2 beside SOLOv2, Mask R-CNN and YOLACT, all trained alike (Tables 2 and 3).
-
-    Example: `fairyring bench network alike --out alike --count 6 --real photos`
-    """
-    from fairyring.app.bench.network.trained_alike import alike_rows
-    from fairyring.model.device import device_of
-
-    with shown_on_stderr() as progress:
-        rows = alike_rows(
-            folder=out,
-            sets=_sets(out, count, real, progress),
-            beds=train_beds,
-            iterations=iterations,
-            crop=crop,
-            device=device_of(device),
-            progress=progress,
-        )
-    print_rows("alike", rows, as_json=as_json)
 
 
 @commands.command()
@@ -264,7 +229,7 @@ def cost(
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device, passes=passes_of(fast=fast)).predictor
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         photos = rendered("paper", folder, count=1, progress=progress)
         rows = cost_rows(predictor, photos)
     print_rows("cost", rows, as_json=as_json)
@@ -283,92 +248,10 @@ def ways(
     from fairyring.model.device import device_of
     from fairyring.model.predict.shipped import SHIPPED
 
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         _, photo = next(rendered("paper", folder, count=1, progress=progress).images())
         rows = way_rows(weights or SHIPPED, photo, device=device_of(device))
     print_rows("ways", rows, as_json=as_json)
-
-
-@commands.command("partial")
-def partial_(
-    *,
-    weights: Weights = None,
-    beds: Beds = None,
-    count: Count = None,
-    real: Annotated[
-        Path | None, typer.Option(help="Folder of photos with checked.json, in place of rendered beds.")
-    ] = None,
-    labelled: Annotated[int, typer.Option(min=1, help="Caps that are labelled.")] = 3,
-    iterations: Annotated[int, typer.Option(min=1, help="Of each training.")] = 30,
-    device: OnDevice = Device.auto,
-    fast: Fast = False,
-    as_json: AsJson = False,
-) -> None:
-    """What learning from a photo with three caps labelled does to the others of its set; two photos in turn.
-
-    Nothing that is learnt is kept.
-
-    Example: `fairyring bench network partial --real photos`
-    """
-    from fairyring.app.bench.network.partly_labelled import Lesson, partly_labelled_rows
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
-    from fairyring.model.predict.shipped import SHIPPED
-
-    lesson = Lesson(
-        weights=weights or SHIPPED,
-        detector_of=lambda weights: _detecting(weights, device, fast=fast),
-        caps=labelled,
-        iterations=iterations,
-        device=device,
-    )
-    rows: list[dict[str, Any]] = []
-    with _folder(beds) as kept, _folder(None) as folder, shown_on_stderr() as progress:
-        sets = [checked(real)] if real else []
-        for name in () if real else TEST_BEDS:
-            sets.append(rendered(name, kept, count=count, progress=progress))
-        for photos in sets:
-            rows += partly_labelled_rows(lesson, photos, folder=folder, progress=progress)
-    print_rows("partial", rows, as_json=as_json)
-
-
-@commands.command()
-def ablation(
-    *,
-    out: Runs,
-    iterations: Iterations = 600,
-    train_beds: TrainBeds = 60,
-    crop: CropSide = 320,
-    count: Count = None,
-    device: OnDevice = Device.auto,
-    as_json: AsJson = False,
-) -> None:
-    """SOLOv2 against PR-SOLOv2, binary against soft targets, grids and points-NMS, all trained alike.
-
-    Example: `fairyring bench network ablation --out ablation --iterations 600`
-    """
-    from fairyring.app.bench.network.ablation import ablation_rows, variants
-    from fairyring.app.bench.network.sets import rendered
-    from fairyring.model.device import device_of
-
-    with shown_on_stderr() as progress:
-        test = rendered("paper", out, count=count, progress=progress)
-        rows = ablation_rows(
-            variants(iterations=iterations, crop=crop),
-            folder=out,
-            test=test,
-            beds=train_beds,
-            device=device_of(device),
-            progress=progress,
-        )
-    print_rows("ablation", rows, as_json=as_json)
-
-
-def _sets(folder: Path, count: int | None, real: Path | None, progress: Progress) -> list[LabelledPhotos]:
-    """The rendered test beds of each preset, and the checked photos of ``real``."""
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
-
-    sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
-    return [*sets, *([] if real is None else [checked(real)])]
 
 
 def _predicted(
@@ -378,31 +261,11 @@ def _predicted(
     from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.bench.network.tables import predicted_document
 
-    detect = _detecting(weights, device, fast=fast)
-    with _folder(beds) as folder, shown_on_stderr() as progress:
+    detect = detecting(weights, device, fast=fast)
+    with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         for name in TEST_BEDS:
             photos = rendered(name, folder, count=count, progress=progress)
             yield photos, predicted_document(detect, photos, progress=progress)
         if real is not None:
             photos = checked(real)
             yield photos, predicted_document(detect, photos, progress=progress)
-
-
-def _detecting(weights: Path | None, device: str, *, fast: bool) -> Callable[[Pixels], list[Detection]]:
-    from fairyring.model.device import device_of
-    from fairyring.model.network.weights import load_weights
-    from fairyring.model.predict.predictor import PredictConfig, Predictor
-    from fairyring.model.predict.scale import detect_at_its_scale
-    from fairyring.model.predict.shipped import SHIPPED
-
-    network, settings = load_weights(weights or SHIPPED).network, PredictConfig(passes=passes_of(fast=fast))
-    return partial(detect_at_its_scale, Predictor(network, device=device_of(device), settings=settings))
-
-
-@contextmanager
-def _folder(given: Path | None) -> Iterator[Path]:
-    if given is not None:
-        yield given
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        yield Path(folder)
