@@ -5,7 +5,6 @@
  * @module
  */
 
-import { same } from "../geometry/same.js";
 import { toScreen } from "../geometry/view.js";
 import { CASING, COLOURS } from "../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../render/paths.js";
@@ -17,7 +16,7 @@ import { strokeCased, traceRing, writeCentred } from "../render/paths.js";
 const WORDS = "T: to the rim";
 
 export class RimSuggestion {
-  /** The cap as it was drawn, and as its rim is. @type {{uid: string, drawn: Cap, tight: Cap} | null} */
+  /** The cap that was drawn, its revision then, and the cap as its rim is. @type {{uid: string, revision: number, tight: Cap} | null} */
   #found = null;
   #state;
   #tightened;
@@ -35,16 +34,18 @@ export class RimSuggestion {
   /** @type {(shape: Shape) => Promise<void>} */
   async #look(shape) {
     this.#found = null;
+    // The server may put an outline right as it stores it: that is no edit, and leaves the revision as it is.
+    const { revision } = this.#state.shape(shape.uid) ?? shape;
     // Without the photo nothing is offered, and nobody has asked.
     const tight = await this.#tightened(shape).catch(() => null);
-    this.#found = tight && { uid: shape.uid, drawn: shape.cap, tight };
+    this.#found = tight && { uid: shape.uid, revision, tight };
     this.#state.signals.overlay.emit();
   }
 
   /** What is offered for a cap as it is now. @type {(shape: Shape) => Cap | null} */
-  of({ uid, cap }) {
+  of({ uid, revision }) {
     const found = this.#found;
-    return found?.uid === uid && same(found.drawn, cap) ? found.tight : null;
+    return found?.uid === uid && found.revision === revision ? found.tight : null;
   }
 
   /** @type {import("../render/overlay.js").Sketch} */
