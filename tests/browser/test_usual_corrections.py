@@ -51,7 +51,9 @@ def areas(project: Path) -> list[float]:
 
 
 def test_a_good_image_is_accepted(hand: Hand, project: Path) -> None:
-    hand.press("Shift+A", "Enter", "Control+Enter")
+    hand.press("Shift+A", "Enter")
+    hand.tab.wait_for("window.fairyring.state.predictions.length === 0")
+    hand.press("Control+Enter")
     hand.tab.wait_for("window.fairyring.state.image.id === 2")
     hand.tab.saved()
     assert len(live_caps(project)) == 13

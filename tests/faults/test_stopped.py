@@ -20,6 +20,7 @@ from typing import Any
 import pytest
 
 from fairyring.app.bench.projects import Bed, write_labels
+from fairyring.app.bench.serving import free_port
 from fairyring.storage.backup import back_up
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
@@ -188,7 +189,7 @@ def test_a_command_that_is_stopped_says_what_was_kept(
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda number: number.name)
 def test_a_server_that_is_stopped_says_that_edits_are_on_disk(number: signal.Signals, folder: Path) -> None:
     for _ in range(2):  # the second time because what it says to do next is nothing: it can be served again
-        running = started(folder, "serve beds --port 0")
+        running = started(folder, f"serve beds --port {free_port()}")
         assert running.stderr is not None
         line = running.stderr.readline()
         assert "beds is open at http://localhost:" in line
