@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from msgspec import structs
+from numpy.typing import NDArray
 
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.calibration import uncalibrated
@@ -57,13 +58,13 @@ def _searched(predictor: Predictor, photo: Pixels) -> tuple[float, float | None,
         part = _middle_of(photo, scale)
         pieces = predictor.go_over(resized(part, scale), Pass())
         whole = part.shape == photo.shape
-        seen = _middling(predictor, pieces)
-        if seen is None:
+        diameters = _certain_diameters(predictor, pieces)
+        if len(diameters) < ENOUGH:
             # Caps too small to be seen may be there; larger ones would have been.
             better = scale * 2
         else:
-            diameter = seen / scale
-            better = min(scale_for(diameter, otherwise=scale), scale * LARGEST_STEP)
+            diameter = float(np.median(diameters)) / scale
+            better = min(scale_for(_weighty(diameters) / scale, otherwise=scale), scale * LARGEST_STEP)
         if better == scale:
             return scale, diameter, pieces if whole else ()
         scale = better
@@ -79,8 +80,8 @@ def _middle_of(photo: Pixels, scale: float) -> Pixels:
     return photo[top : top + h, left : left + w]
 
 
-def _middling(predictor: Predictor, pieces: Sequence[SeenPiece]) -> float | None:
-    """The median diameter of certain caps, of the circles of what is visible, in pixels of the pass."""
+def _certain_diameters(predictor: Predictor, pieces: Sequence[SeenPiece]) -> NDArray[np.float64]:
+    """The diameters of certain caps, of the circles of what is visible, in pixels of the pass, rising."""
     least = uncalibrated(CERTAIN, predictor.calibration)
     settings = structs.replace(predictor.settings.decode, least_score=least)
     stride = predictor.network.config.mask_stride
@@ -89,4 +90,13 @@ def _middling(predictor: Predictor, pieces: Sequence[SeenPiece]) -> float | None
         for piece in pieces
         for count in (predictor.instances(piece, settings).logits > 0).sum((1, 2)).tolist()
     ]
-    return float(np.median((4 * np.array(pixels) / np.pi) ** 0.5)) if len(pixels) >= ENOUGH else None
+    return np.sort((4 * np.array(pixels) / np.pi) ** 0.5)
+
+
+def _weighty(diameters: NDArray[np.float64]) -> float:
+    """The diameter at which half of the sum of all, which rise, is reached.
+
+    The scale goes by it: their median would follow buds, of which more are seen the more a photo is enlarged.
+    """
+    sums = diameters.cumsum()
+    return float(diameters[np.searchsorted(sums, sums[-1] / 2)])
