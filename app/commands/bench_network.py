@@ -105,17 +105,14 @@ def clicks(
     Example: `fairyring bench network clicks --real photos --count 2`
     """
     from fairyring.app.bench.network.clicks import click_rows
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
     rows: list[dict[str, Any]] = []
     with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
-        for name in TEST_BEDS:
-            rows += click_rows(predictor, rendered(name, folder, count=count, progress=progress))
-    if real is not None:
-        rows += click_rows(predictor, checked(real))
+        for photos in labelled_sets(folder, count, real, progress):
+            rows += click_rows(predictor, photos)
     print_rows("clicks", rows, as_json=as_json)
 
 
@@ -135,7 +132,6 @@ def quality(
     Example: `fairyring bench network quality --real photos --count 6`
     """
     from fairyring.app.bench.network.quality import quality_rows
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
@@ -143,8 +139,7 @@ def quality(
     predictor = network_of(weights or SHIPPED, device=device, least_score=0, passes=passes).predictor
     rows: list[dict[str, Any]] = []
     with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
-        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
-        for photos in [*sets, *([] if real is None else [checked(real)])]:
+        for photos in labelled_sets(folder, count, real, progress):
             rows += quality_rows(predictor, photos, progress=progress)
     print_rows("quality", rows, as_json=as_json)
 
@@ -167,7 +162,6 @@ def wholes(
 
     Example: `fairyring bench network wholes --real photos --count 6 --widened 1 --widened 2`
     """
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.bench.network.wholes import whole_rows
     from fairyring.app.jobs.predicting import network_of
     from fairyring.model.predict.shipped import SHIPPED
@@ -175,8 +169,7 @@ def wholes(
     predictor = network_of(weights or SHIPPED, device=device).predictor
     rows: list[dict[str, Any]] = []
     with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
-        sets = [rendered(name, folder, count=count, progress=progress) for name in TEST_BEDS]
-        for photos in [*sets, *([] if real is None else [checked(real)])]:
+        for photos in labelled_sets(folder, count, real, progress):
             rows += whole_rows(predictor, photos, widened=widened or (1.0,), progress=progress)
     print_rows("wholes", rows, as_json=as_json)
 
@@ -258,14 +251,9 @@ def _predicted(
     weights: Path | None, beds: Path | None, count: int | None, real: Path | None, device: str, *, fast: bool
 ) -> Iterator[tuple[LabelledPhotos, dict[str, Any]]]:
     """Each set of photos with the network's predictions for it."""
-    from fairyring.app.bench.network.sets import TEST_BEDS, checked, rendered
     from fairyring.app.bench.network.tables import predicted_document
 
     detect = detecting(weights, device, fast=fast)
     with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
-        for name in TEST_BEDS:
-            photos = rendered(name, folder, count=count, progress=progress)
-            yield photos, predicted_document(detect, photos, progress=progress)
-        if real is not None:
-            photos = checked(real)
+        for photos in labelled_sets(folder, count, real, progress):
             yield photos, predicted_document(detect, photos, progress=progress)
