@@ -108,6 +108,7 @@ export default {
         { "name": "select_all", "keys": ["Ctrl+A"], "words": "Select all" },
         { "name": "accept", "keys": ["A"], "words": "Accept the selected prediction", "label": "Accept" },
         { "name": "check", "keys": ["Space"], "words": "This one is right: on to the next worst", "label": "Right" },
+        { "name": "next_open", "keys": ["Shift+N"], "words": "Next open cap, row by row; decides nothing", "label": "Next open" },
         { "name": "accept_all", "keys": ["Shift+A"], "words": "Accept all open predictions from a score on", "label": "Accept all" },
         { "name": "tighten", "keys": ["T"], "words": "Draw the selected outlines to the rim nearby", "label": "Tighten" },
         { "name": "merge", "keys": ["J"], "words": "Make one cap of the selected ones", "label": "Merge" },
@@ -159,7 +160,8 @@ export default {
     { "name": "centre", "key": "5", "words": "Centres", "shown": true },
     { "name": "label", "key": "6", "words": "Labels", "shown": false },
     { "name": "prediction", "key": "7", "words": "Predictions", "shown": true },
-    { "name": "uncertainty", "key": "8", "words": "Uncertainty of centres", "shown": false }
+    { "name": "uncertainty", "key": "8", "words": "Uncertainty of centres", "shown": false },
+    { "name": "checked", "key": "9", "words": "Checked caps, not only faintly", "shown": true }
   ],
   "held": [
     { "name": "pan", "key": "Space", "words": "A drag moves the view" },

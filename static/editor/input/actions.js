@@ -22,7 +22,7 @@ import {
   toggleReview,
   walkDifferences,
 } from "./actions/reviewing.js";
-import { acceptFrom, check, ignoreBuds } from "./actions/walking.js";
+import { acceptFrom, check, goToOpen, ignoreBuds } from "./actions/walking.js";
 import { commandOfLayer } from "./keys.js";
 
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
@@ -43,6 +43,7 @@ export const ACTIONS = {
   accept: ({ state }) => acceptSelected(state),
   accept_all: (context) => void acceptFrom(context),
   check,
+  next_open: goToOpen,
   ignore_buds: ignoreBuds,
   doubtful: ({ state }) => flag(state, "doubtful"),
   ignored: ({ state }) => flag(state, "ignored"),

@@ -31,6 +31,8 @@ const SPREADS = 2;
 const LEAST_SPREAD_PX = 2;
 /** How far from the outline anything of a shape may be drawn: lines, the cross, a label. */
 const AROUND_PX = 24;
+/** How much of the outlines of checked caps is seen where only open ones are to stand out. */
+const FAINT = 0.35;
 /** From this many shapes on, lines are a device pixel wide: five times quicker to draw in software. */
 const MANY = 400;
 
@@ -107,6 +109,7 @@ function styleOf(shape, selected) {
 /** @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
 function paintGroup(context, view, shapes, how) {
   const { style, visible } = how;
+  if (style === "checked" && !visible.checked) return paintFaintly(context, view, shapes, how);
   const large = shapes.filter((shape) => sizeOf(shape, view) >= SMALL_PX);
   const ignored = shapes.filter(({ cap }) => cap.ignored);
   hatch(context, view, ignored);
@@ -131,6 +134,13 @@ function paintGroup(context, view, shapes, how) {
     faded("centre", (shape) => strokeCentre(context, view, shape, style));
   for (const shape of large) if (shape.cap.doubtful && !visible.label) writeLabel(context, view, shape, "?");
   if (visible.label) faded("label", (shape) => writeLabel(context, view, shape, labelOf(shape)));
+}
+
+/** Nothing but the outlines. @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
+function paintFaintly(context, view, shapes, how) {
+  context.globalAlpha = FAINT;
+  strokeOutlines(context, view, shapes, { ...how, colouring: "none" });
+  context.globalAlpha = 1;
 }
 
 /** From 0, not at all, to 1. @type {(size: number, between: number[]) => number} */

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { Pace, atLeast, checkAndGoOn, openOnes, progressOf } from "../../../static/editor/state/walking.js";
+import { goToOpen } from "../../../static/editor/input/actions/walking.js";
 import { shapeOfAnnotation } from "../../../static/editor/geometry/shapes.js";
 import { capOf, prediction, triangle } from "../support/caps.js";
 import { openState } from "../support/state.js";
@@ -52,6 +53,19 @@ test("a cap that was changed is checked by that, one that is ignored is never op
   state.commitDrafts();
   assert.deepEqual(openOnes(state.items.all), []);
   assert.deepEqual(openOnes([{ ...shape, cap: { ...shape.cap, ignored: true } }]), []);
+});
+
+test("the next open cap is the next as one reads, the first again after the last, and nothing is decided", () => {
+  const { state, committed } = openState({ predictions: said([0.9, 0.4, 0.7]), shapes: [imported("u", 1)] });
+  /** @type {any} */
+  const context = { state, say: (/** @type {string} */ text) => assert.equal(text, "") };
+  const met = [];
+  for (let i = 0; i < 5; i++) {
+    goToOpen(context);
+    met.push(state.sole?.score);
+  }
+  assert.deepEqual(met, [0.9, 0.4, 0.7, null, 0.9]);
+  assert.deepEqual(committed, []);
 });
 
 test("a threshold means the predictions that are shown and have at least that score", () => {

@@ -4,10 +4,11 @@
  * @module
  */
 
+import { inReadingOrder } from "../../geometry/reading_order.js";
 import { boundsOf, withCap } from "../../geometry/shapes.js";
 import { changed } from "../../state/changes.js";
 import { accept } from "../../state/edits.js";
-import { atLeast, checkAndGoOn } from "../../state/walking.js";
+import { atLeast, checkAndGoOn, openOnes } from "../../state/walking.js";
 
 /** @typedef {import("./context.js").Context} Context */
 
@@ -20,6 +21,15 @@ const BUD_PX = 30;
 /** @type {(context: Context) => void} */
 export function check({ state, say }) {
   if (!checkAndGoOn(state)) say(ALL_CHECKED);
+}
+
+/** Selects the next open cap in reading order, from the last one on the first again. @type {(context: Context) => void} */
+export function goToOpen({ state, say }) {
+  const order = inReadingOrder(state.visible);
+  const here = order.findLastIndex(({ uid }) => state.selection.has(uid));
+  const [next] = openOnes([...order.slice(here + 1), ...order.slice(0, here + 1)]);
+  if (!next) return say(ALL_CHECKED);
+  state.select([next.uid], { reveal: true });
 }
 
 /** Makes annotations of the open predictions from a score on that the person chooses. @type {(context: Context) => Promise<void>} */

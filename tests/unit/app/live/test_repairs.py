@@ -11,6 +11,8 @@ from tests.support.tab import Tab, new_cap
 from tests.unit.app.conftest import circle
 
 BOW_TIE = [[20.0, 20.0, 80.0, 80.0, 80.0, 20.0, 20.0, 80.0]]
+SHAKEN = [[20.0, 20.0, 50.0, 20.0, 51.0, 19.0, 50.0, 19.5, 51.5, 20.5, 80.0, 20.0, 80.0, 80.0, 20.0, 80.0]]
+RAN_ON = [[20.0, 20.0, 80.0, 20.0, 80.0, 80.0, 20.0, 80.0, 20.0, 18.0, 40.0, 21.5]]
 OVERSHOT = [[20.0, 20.0, 80.0, 20.0, 80.0, 80.0, 20.0, 80.0, 18.0, 22.0, 30.0, 16.0]]
 
 
@@ -40,4 +42,16 @@ def test_nothing_is_said_of_an_outline_that_is_stored_as_it_was_drawn_or_ends_wi
         tab.edit(
             new_cap(1, visible=circle(60, 50, 20)), new_cap(1, uid="b", edit="e2", visible=circle(2, 50, 20))
         )
+        assert tab.nothing_more(Notice)
+
+
+@pytest.mark.parametrize("visible", [SHAKEN, RAN_ON])
+def test_nothing_is_said_of_a_hand_that_shook_or_ran_on_a_little(
+    port: int, visible: list[list[float]]
+) -> None:
+    with Tab(port, image=1) as tab:
+        tab.expect(Show)
+        [outcome] = tab.edit(new_cap(1, visible=visible)).outcomes
+        assert isinstance(outcome, Accepted)
+        assert outcome.annotation.cap.visible != visible
         assert tab.nothing_more(Notice)
