@@ -146,3 +146,26 @@ def test_a_quick_mouse_is_followed_no_oftener_than_it_helps_but_to_where_it_ends
     """
     )
     assert call("input/pointer", body) == [True, 199]
+
+
+def test_checked_caps_are_faint_outlines_where_only_open_ones_are_to_stand_out(call) -> None:
+    body = """
+      const visible = {outline: true, fill: true, prediction: true, checked: a};
+      const cap = {visible: [[10, 10, 50, 10, 50, 50, 10, 50]], mark: null, ignored: false, doubtful: false};
+      const seen = (checked) => {
+        const context = new OffscreenCanvas(60, 60).getContext('2d');
+        const shapes = [{uid: 'u', cap, checked, score: null, whole: null, centre: null}];
+        m.paint(context, {scale: 1, x: 0, y: 0}, {x0: 0, y0: 0, x1: 60, y1: 60}, {
+          shapes, visible, selected: new Set(),
+        });
+        return [[30, 30], [30, 10]].map(([x, y]) => context.getImageData(x, y, 1, 1).data[3]);
+      };
+      return [seen(true), seen(false)];
+    """
+    full, open_ = call("render/paint", body, True)
+    faint, still_open = call("render/paint", body, False)
+    assert full[0] > 0
+    assert full[1] > 200
+    assert faint[0] == 0
+    assert 0 < faint[1] < 120
+    assert still_open == open_
