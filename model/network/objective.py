@@ -24,14 +24,10 @@ POINTS = 196
 
 @dataclass(frozen=True, kw_only=True)
 class Caps:
-    """The caps of one input, as the losses need them."""
+    """The n caps of one input."""
 
     masks: Tensor
     """(n, H, W) uint8 at photo pixels: 1 on the visible cap."""
-    targets: Tensor
-    """(n, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
-    cells: list[Tensor]
-    """For each level (rows, columns) int64, which cap each cell learns: see ``model.network.targets``."""
     ignored: Tensor
     """(H, W) bool at photo pixels: where it is not said whether there is a cap."""
     wholes: Tensor
@@ -40,29 +36,49 @@ class Caps:
 
 @dataclass(frozen=True, kw_only=True)
 class Batch:
-    """B inputs of one size."""
+    """B inputs of one size and their N caps, those of the first input first.
+
+    Each of its parts is one tensor: hundreds of small ones take longer to hand over than to learn from.
+    """
 
     photos: Tensor
     """(B, 3, H, W) uint8, RGB."""
     origins: Tensor
     """(B, 2): see ``with_coordinates``."""
-    caps: list[Caps]
+    counts: list[int]
+    """How many caps each input has; N in all."""
+    masks: Tensor
+    """(N, H, W) uint8 at photo pixels: 1 on the visible cap."""
+    targets: Tensor
+    """(N, h, w) float in [0, 1]: the mask at the mask feature's stride, soft or binary."""
+    cells: list[Tensor]
+    """For each level (B, rows, columns) int64, which of the N caps each cell learns: see
+    ``model.network.targets``."""
+    ignored: Tensor
+    """(B, H, W) bool at photo pixels: where it is not said whether there is a cap."""
+    wholes: Tensor
+    """(N, 5) float64: the whole ellipses by ``model.geometry.ellipse_parameters``; NaN where not known."""
+
+    @property
+    def caps(self) -> list[Caps]:
+        """Those of each input."""
+        masks, wholes = self.masks.split(self.counts), self.wholes.split(self.counts)
+        return [
+            Caps(masks=mine, ignored=ignored, wholes=known)
+            for mine, ignored, known in zip(masks, self.ignored, wholes, strict=True)
+        ]
 
     def to(self, device: torch.device) -> Batch:
-        """The same batch on another device."""
+        """The same batch on another device; the whole ellipses, read by numpy alone, stay where they are."""
         return Batch(
             photos=self.photos.to(device),
             origins=self.origins.to(device),
-            caps=[
-                Caps(
-                    masks=caps.masks.to(device),
-                    targets=caps.targets.to(device),
-                    cells=[cells.to(device) for cells in caps.cells],
-                    ignored=caps.ignored.to(device),
-                    wholes=caps.wholes,
-                )
-                for caps in self.caps
-            ],
+            counts=self.counts,
+            masks=self.masks.to(device),
+            targets=self.targets.to(device),
+            cells=[cells.to(device) for cells in self.cells],
+            ignored=self.ignored.to(device),
+            wholes=self.wholes,
         )
 
 
@@ -98,11 +114,10 @@ def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
     """The losses of one forward pass over ``batch.photos``."""
     positives = _positives(outputs, batch, network.config)
     category = _category_loss(outputs, batch) / (len(positives.caps) + 1)
-    targets = torch.cat([caps.targets for caps in batch.caps])
     logits = mask_logits(outputs.feature, positives.kernels, positives.images)
     logits = within_reach(logits, positives.middles, positives.reach / network.config.mask_stride)
     nothing = outputs.feature.sum() * 0
-    mask = dice_loss(logits, targets[positives.caps]).mean() if len(logits) else nothing
+    mask = dice_loss(logits, batch.targets[positives.caps]).mean() if len(logits) else nothing
     points = nothing
     if outputs.point_maps is not None and len(logits):
         points = _instance_points(network, outputs, batch, positives, logits)
@@ -113,32 +128,26 @@ def losses_of(network: PRSOLOv2, outputs: Outputs, batch: Batch) -> Losses:
 
 def _positives(outputs: Outputs, batch: Batch, config: NetworkConfig) -> _Positives:
     parts = []
-    first = 0
-    for image, caps in enumerate(batch.caps):
-        for level, cells in enumerate(caps.cells):
-            held = cells >= 0
-            places = cells[held] + first
-            parts.append(
-                _Positives(
-                    kernels=outputs.kernels[level][image].permute(1, 2, 0)[held],
-                    images=torch.full_like(places, image),
-                    caps=places,
-                    middles=middles_of(held),
-                    reach=torch.full_like(places, reach_of(config, level), dtype=torch.float32),
-                )
+    for level, cells in enumerate(batch.cells):
+        held = cells >= 0
+        images = held.nonzero()[:, 0]
+        parts.append(
+            _Positives(
+                kernels=outputs.kernels[level].permute(0, 2, 3, 1)[held],
+                images=images,
+                caps=cells[held],
+                middles=middles_of(held),
+                reach=torch.full_like(images, reach_of(config, level), dtype=torch.float32),
             )
-        first += len(caps.masks)
-    return _Positives(*(torch.cat(part) for part in zip(*parts, strict=True)))
+        )
+    together = _Positives(*(torch.cat(part) for part in zip(*parts, strict=True)))
+    order = together.images.argsort(stable=True)
+    return _Positives(*(part[order] for part in together))
 
 
 def _category_loss(outputs: Outputs, batch: Batch) -> Tensor:
     logits = torch.cat([level.flatten() for level in outputs.categories])
-    cells = torch.cat(
-        [
-            torch.stack([caps.cells[level] for caps in batch.caps]).flatten()
-            for level in range(len(outputs.categories))
-        ]
-    )
+    cells = torch.cat([level.flatten() for level in batch.cells])
     counts = cells != IGNORED
     return focal_loss(logits[counts].float(), cells[counts] >= 0)
 
@@ -151,12 +160,12 @@ def _instance_points(
     assert outputs.point_maps is not None
     device = logits.device
     shuffled = torch.randperm(len(logits), device=device)
-    of_cap = torch.full((sum(len(caps.masks) for caps in batch.caps),), -1, device=device)
+    of_cap = torch.full((len(batch.masks),), -1, device=device)
     of_cap[positives.caps[shuffled]] = shuffled
     caps = (of_cap >= 0).nonzero().squeeze(1)
     chosen = of_cap[caps]
     coarse, stride = logits[chosen], network.config.mask_stride
-    targets = torch.cat([image.targets for image in batch.caps])[caps]
+    targets = batch.targets[caps]
     with torch.no_grad():
         # As prediction sees it: in cells of the mask, and with the window's margin to draw in.
         boxes = boxes_of(targets >= targets.amax((1, 2), keepdim=True).clamp(max=0.5)) * stride
@@ -171,8 +180,7 @@ def _instance_points(
         coarse=sample_maps(coarse[:, None], each, points, stride=stride)[:, 0],
     )
     said = network.point_head(outputs.point_maps, queries)
-    masks = torch.cat([image.masks for image in batch.caps])
-    true = sample_maps(masks[:, None], caps[each], points, stride=1)[:, 0]
+    true = sample_maps(batch.masks[:, None], caps[each], points, stride=1)[:, 0]
     return point_loss(said, true)
 
 
@@ -190,5 +198,5 @@ def _semantic_points(outputs: Outputs, batch: Batch) -> Tensor:
     points = outputs.sharp.points.reshape(-1, 2)
     true = sample_maps(any_cap[:, None], owners, points, stride=1)[:, 0]
     x, y = points.long().unbind(1)
-    unsaid = torch.stack([caps.ignored for caps in batch.caps])[owners, y, x] & (true == 0)
+    unsaid = batch.ignored[owners, y, x] & (true == 0)
     return point_loss(outputs.sharp.logits.flatten()[~unsaid], true[~unsaid])

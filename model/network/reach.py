@@ -20,9 +20,9 @@ def reach_of(config: NetworkConfig, level: int) -> float:
 
 
 def middles_of(held: Tensor) -> Tensor:
-    """Middles of the cells that are True: (rows, columns) → (n, 2), x, y as shares of the input's sides."""
-    rows, columns = held.nonzero().unbind(1)
-    return torch.stack([(columns + 0.5) / held.shape[1], (rows + 0.5) / held.shape[0]], dim=1)
+    """Middles of the cells that are True, (..., rows, columns) → (n, 2): x, y as shares of the sides."""
+    rows, columns = held.nonzero()[:, -2:].unbind(1)
+    return torch.stack([(columns + 0.5) / held.shape[-1], (rows + 0.5) / held.shape[-2]], dim=1)
 
 
 def within_reach(logits: Tensor, middles: Tensor, reach: Tensor) -> Tensor:

@@ -16,7 +16,7 @@ from fairyring.model import photo
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Outline, Shape
 from fairyring.model.network.config import NetworkConfig
-from fairyring.model.network.objective import Batch, Caps
+from fairyring.model.network.objective import Batch
 from fairyring.model.network.targets import assign_cells
 from fairyring.model.train.augment import sample_augmentation
 from fairyring.model.train.crops import Crop, CropConfig, cut_crop
@@ -107,25 +107,31 @@ class Batches(Dataset[Batch]):
 
 def batch_of(crops: Sequence[Crop], network: NetworkConfig, *, soft: bool) -> Batch:
     """Puts crops of one size together into a batch."""
+    masks = torch.from_numpy(np.concatenate([crop.masks for crop in crops]))
+    targets = torch.nn.functional.avg_pool2d(masks[:, None].float(), network.mask_stride)[:, 0]
     return Batch(
         photos=torch.from_numpy(np.stack([crop.photo for crop in crops]).transpose(0, 3, 1, 2)),
         origins=torch.tensor([crop.origin for crop in crops], dtype=torch.float32),
-        caps=[_caps_of(crop, network, soft=soft) for crop in crops],
-    )
-
-
-def _caps_of(crop: Crop, network: NetworkConfig, *, soft: bool) -> Caps:
-    height, width = crop.photo.shape[:2]
-    cells = assign_cells(crop.boxes, crop.centres, network, height=height, width=width, ignored=crop.ignored)
-    masks = torch.from_numpy(crop.masks)
-    targets = torch.nn.functional.avg_pool2d(masks[:, None].float(), network.mask_stride)[:, 0]
-    return Caps(
+        counts=[len(crop.masks) for crop in crops],
         masks=masks,
         targets=targets if soft else _binary(targets),
-        cells=[torch.from_numpy(level) for level in cells],
-        ignored=torch.from_numpy(crop.ignored),
-        wholes=torch.from_numpy(crop.wholes),
+        cells=_cells_of(crops, network),
+        ignored=torch.from_numpy(np.stack([crop.ignored for crop in crops])),
+        wholes=torch.from_numpy(np.concatenate([crop.wholes for crop in crops])),
     )
+
+
+def _cells_of(crops: Sequence[Crop], network: NetworkConfig) -> list[torch.Tensor]:
+    """Each level's cells of all crops, the caps counted on from crop to crop."""
+    each, first = [], 0
+    for crop in crops:
+        height, width = crop.photo.shape[:2]
+        levels = assign_cells(
+            crop.boxes, crop.centres, network, height=height, width=width, ignored=crop.ignored
+        )
+        each.append([np.where(cells >= 0, cells + first, cells) for cells in levels])
+        first += len(crop.masks)
+    return [torch.from_numpy(np.stack(level)) for level in zip(*each, strict=True)]
 
 
 def _binary(targets: torch.Tensor) -> torch.Tensor:

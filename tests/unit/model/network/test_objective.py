@@ -106,8 +106,8 @@ def test_terms_are_those_of_a_loop_over_cells() -> None:
         outputs = network(batch.photos, batch.origins)
         losses = losses_of(network, outputs, batch)
     dice, focal, positives, ignored = [], 0.0, 0, 0
-    for image, caps in enumerate(batch.caps):
-        for level, cells in enumerate(caps.cells):
+    for level, images in enumerate(batch.cells):
+        for image, cells in enumerate(images):
             for row in range(cells.shape[0]):
                 for column in range(cells.shape[1]):
                     cap = int(cells[row, column])
@@ -123,7 +123,7 @@ def test_terms_are_those_of_a_loop_over_cells() -> None:
                     p = torch.einsum("e,ehw->hw", kernel, outputs.feature[image]).sigmoid()
                     middle = ((column + 0.5) / cells.shape[1], (row + 0.5) / cells.shape[0])
                     p = p * near(middle, 2 / 3 * network.config.scale_ranges[level][1], p)
-                    q = F.avg_pool2d(caps.masks[cap : cap + 1].float(), 4)[0]
+                    q = F.avg_pool2d(batch.masks[cap : cap + 1].float(), 4)[0]
                     dice.append(1 - 2 * float((p * q).sum()) / float((p**2).sum() + (q**2).sum()))
     assert ignored > 0
     assert float(losses.mask) == pytest.approx(sum(dice) / positives, rel=1e-4)
@@ -138,7 +138,7 @@ def test_what_is_said_in_ignored_cells_costs_nothing() -> None:
     with torch.no_grad():
         outputs = network(batch.photos, batch.origins)
         before = losses_of(network, outputs, batch)
-        for level, cells in enumerate(batch.caps[0].cells):
+        for level, (cells,) in enumerate(batch.cells):
             outputs.categories[level][0][cells == IGNORED] += 7
         after = losses_of(network, outputs, batch)
     assert float(after.category) == float(before.category)
@@ -171,18 +171,18 @@ def test_points_are_asked_of_one_positive_cell_of_each_cap_and_told_the_truth_th
     (queries,) = echo.queries
     assert len(queries.points) == 3 * POINTS
     assert queries.owners.view(3, POINTS).unique(dim=1).tolist() == [[0], [1], [1]]
-    places = [(0, 0), (1, 0), (1, 1)]
+    places = [(0, 0), (1, 1), (1, 2)]
     said, true = [], []
     for (image, cap), of_cap in zip(places, torch.arange(3 * POINTS).view(3, POINTS), strict=True):
         points, box = queries.points[of_cap], queries.boxes[of_cap]
         mine = [
             outputs.kernels[level][image, :, row, column]
-            for level, cells in enumerate(batch.caps[image].cells)
-            for row, column in (cells == cap).nonzero().tolist()
+            for level, cells in enumerate(batch.cells)
+            for row, column in (cells[image] == cap).nonzero().tolist()
         ]
         kernel = queries.kernels[of_cap[0]]
         assert any(torch.equal(kernel, one) for one in mine)
-        cx, cy, r = (DISCS[:1], DISCS[1:])[image][cap]
+        cx, cy, r = DISCS[cap]
         # The box of the cells that are covered by half, which is within half a cell of the disc's own.
         assert box[0].tolist() == pytest.approx((cx - r, cy - r, 2 * r, 2 * r), abs=4)
         assert (points >= box[:, :2] - 4).all()
@@ -190,7 +190,7 @@ def test_points_are_asked_of_one_positive_cell_of_each_cap_and_told_the_truth_th
         logits = torch.einsum("e,ehw->hw", kernel, outputs.feature[image])[None, None]
         nothing = torch.zeros(POINTS, dtype=torch.int64)
         said.append(sample_maps(logits, nothing, points, stride=4)[:, 0])
-        masks = batch.caps[image].masks[cap][None, None]
+        masks = batch.masks[cap][None, None]
         true.append(sample_maps(masks, nothing, points, stride=1)[:, 0])
     torch.testing.assert_close(torch.cat(said), queries.coarse, atol=1e-6, rtol=1e-4)
     expected = F.binary_cross_entropy_with_logits(torch.cat(said), torch.cat(true))

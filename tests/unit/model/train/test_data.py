@@ -43,10 +43,7 @@ def examples(tmp_path_factory: pytest.TempPathFactory) -> list[Example]:
 
 
 def tensors(batch: Batch) -> list[Tensor]:
-    parts = [batch.photos, batch.origins]
-    for caps in batch.caps:
-        parts += [caps.masks, caps.targets, *caps.cells]
-    return parts
+    return [batch.photos, batch.origins, batch.masks, batch.targets, *batch.cells]
 
 
 def test_a_batch_is_the_same_whatever_came_before(examples: list[Example]) -> None:
@@ -81,12 +78,20 @@ def test_shapes_are_those_the_network_takes(examples: list[Example]) -> None:
     assert batch.photos.shape == (3, 3, 64, 64)
     assert batch.photos.dtype == torch.uint8
     assert batch.origins.shape == (3, 2)
-    for caps in batch.caps:
-        count = len(caps.masks)
-        assert caps.masks.shape == (count, 64, 64)
-        assert caps.targets.shape == (count, 16, 16)
-        assert [tuple(cells.shape) for cells in caps.cells] == [(4, 4), (3, 3), (2, 2), (1, 1), (1, 1)]
-        assert max(int(cells.max()) for cells in caps.cells) < count
+    count = sum(batch.counts)
+    assert batch.masks.shape == (count, 64, 64)
+    assert batch.targets.shape == (count, 16, 16)
+    assert [tuple(cells.shape[1:]) for cells in batch.cells] == [(4, 4), (3, 3), (2, 2), (1, 1), (1, 1)]
+    assert [len(caps.masks) for caps in batch.caps] == batch.counts
+
+
+def test_a_cell_learns_a_cap_of_its_own_photo(examples: list[Example]) -> None:
+    batch = Batches(examples, SETTINGS, count=1)[0]
+    owners = torch.arange(3).repeat_interleave(torch.tensor(batch.counts))
+    for cells in batch.cells:
+        image, _, _ = (cells >= 0).nonzero().unbind(1)
+        assert torch.equal(owners[cells[cells >= 0]], image)
+    assert any((cells >= 0).any() for cells in batch.cells)
 
 
 def test_channels_are_red_green_and_blue(tmp_path: Path) -> None:
@@ -109,12 +114,11 @@ def test_targets_are_means_over_cells_and_their_halves(examples: list[Example], 
         )[0]
         for soft in (True, False)
     )
-    for some, others in zip(soft.caps, binary.caps, strict=True):
-        for mask, mean, half in zip(some.masks.numpy(), some.targets, others.targets, strict=True):
-            side = 64 // stride
-            cells = mask.reshape(side, stride, side, stride).sum(axis=(1, 3)) / stride**2
-            np.testing.assert_array_equal(mean.numpy(), cells.astype(np.float32))
-            np.testing.assert_array_equal(half.numpy(), cells >= 0.5)
+    for mask, mean, half in zip(soft.masks.numpy(), soft.targets, binary.targets, strict=True):
+        side = 64 // stride
+        cells = mask.reshape(side, stride, side, stride).sum(axis=(1, 3)) / stride**2
+        np.testing.assert_array_equal(mean.numpy(), cells.astype(np.float32))
+        np.testing.assert_array_equal(half.numpy(), cells >= 0.5)
 
 
 def test_ignored_regions_are_not_learnt(examples: list[Example]) -> None:
@@ -122,11 +126,11 @@ def test_ignored_regions_are_not_learnt(examples: list[Example]) -> None:
     region = [[0.0, 0.0, 96.0, 0.0, 96.0, 64.0, 0.0, 64.0]]
     example = Example(path=one.path, width=96, height=64, caps=one.caps, ignored=[region])
     settings = SampleConfig(crop=STILL, network=TINY, batch=1, soft=True, seed=0)
-    (caps,) = Batches([example], settings, count=1)[0].caps
-    for cells in caps.cells:
+    batch = Batches([example], settings, count=1)[0]
+    for cells in batch.cells:
         assert (cells != EMPTY).all()
-    assert (caps.cells[0] == IGNORED).sum() + (caps.cells[0] >= 0).sum() == 16
-    assert len(caps.masks) == 2
+    assert (batch.cells[0] == IGNORED).sum() + (batch.cells[0] >= 0).sum() == 16
+    assert batch.counts == [2]
 
 
 def test_examples_without_a_labelled_cap_are_refused(examples: list[Example]) -> None:
@@ -144,18 +148,20 @@ def test_a_photo_without_caps_teaches_that_nothing_is_there(examples: list[Examp
     bare = Example(path=examples[1].path, width=96, height=64, caps=[])
     settings = SampleConfig(crop=STILL, network=TINY, batch=2, soft=True, seed=0)
     seen = Batches([bare, examples[0]], settings, count=1)[0]
-    (empty,) = [caps for caps in seen.caps if not len(caps.masks)]
-    assert all((cells == EMPTY).all() for cells in empty.cells)
+    empty = seen.counts.index(0)
+    assert all((cells[empty] == EMPTY).all() for cells in seen.cells)
 
 
 def test_outside_the_caps_of_a_photo_labelled_in_part_nothing_is_learnt(examples: list[Example]) -> None:
     one = examples[0]
     example = Example(path=one.path, width=96, height=64, caps=one.caps[:1], complete=False)
     settings = SampleConfig(crop=STILL, network=TINY, batch=4, soft=True, seed=0)
-    for caps in Batches([example], settings, count=1)[0].caps:
+    batch = Batches([example], settings, count=1)[0]
+    for nth, caps in enumerate(batch.caps):
         inside = caps.masks[0].bool()
         assert torch.equal(caps.ignored, ~inside)
-        for cells in caps.cells:
+        for level in batch.cells:
+            cells = level[nth]
             rows, columns = cells.shape
             middles = [
                 ((r + 0.5) * 64 / rows, (c + 0.5) * 64 / columns) for r in range(rows) for c in range(columns)
