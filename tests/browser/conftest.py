@@ -12,6 +12,10 @@ from playwright.sync_api import Browser
 from fairyring.app.bench.browser.tab import Tab, chromium
 from fairyring.app.bench.serving import Server
 from fairyring.app.demo.making import make_demo
+from tests.support.said import RECORDING
+
+MOST_WAIT_MS = 90_000
+"""How long a test waits for what is sure to come: on a busy machine playwright's half a minute is too short."""
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +54,8 @@ def open_tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
 
     def open_(server: Server, *, name: str = "Ada") -> Tab:
         context = browser.new_context(viewport={"width": 1500, "height": 900})
+        context.add_init_script(RECORDING)
+        context.set_default_timeout(MOST_WAIT_MS)
         tab = Tab(context.new_page())
         tabs.append(tab)
         tab.enter(server.url, name=name)

@@ -71,6 +71,7 @@ class TestPredictions:
         tab.press("Shift+A", *["ArrowRight"] * 6)
         dialog.get_by_text("2 of 4").wait_for()
         tab.press("Enter")
+        tab.wait_for("window.fairyring.state.shapes.length === 2")
         tab.saved()
         assert len(live_caps(project)) == 2
         assert sorted(p["score"] for p in tab.state("predictions")) == [0.4, 0.7]
