@@ -15,7 +15,7 @@ from fairyring.app.demo.making import make_demo
 from tests.support.said import RECORDING
 
 MOST_WAIT_MS = 90_000
-"""How long a test waits for what is sure to come: on a busy machine playwright's half a minute is too short."""
+"""How long a test waits for what is sure to come: half a minute is too short on a busy machine."""
 
 
 @pytest.fixture(scope="module")
