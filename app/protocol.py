@@ -9,7 +9,7 @@ from typing import Literal
 
 from msgspec import Struct, field
 
-from fairyring.model.geometry.shapes import Fit
+from fairyring.model.geometry.shapes import Circle, Fit, Polygon
 from fairyring.storage.compared_caps import Kind
 from fairyring.storage.image_history import Reversal, Way
 from fairyring.storage.records import (
@@ -97,6 +97,23 @@ class ShowCaps(FromEditor, frozen=True, tag="show_caps"):
     kind: Kind
 
 
+class AskAgain(FromEditor, frozen=True, tag="ask_again"):
+    """Asks for a cap that the person at this tab is to mark again."""
+
+    quiet: bool
+    """Nothing is said where there is none."""
+
+
+class MarkedAgain(FromEditor, frozen=True, tag="marked_again"):
+    """The second mark of a cap, as it lies on the photo itself."""
+
+    id: str
+    """Chosen by the browser: the same id a second time changes nothing."""
+    annotation: str
+    mirrored: bool
+    mark: Circle | Polygon
+
+
 class Select(FromEditor, frozen=True, tag="select"):
     """Says what is selected, for the inspector."""
 
@@ -165,6 +182,8 @@ Incoming = (
     | FindCap
     | Compare
     | ShowCaps
+    | AskAgain
+    | MarkedAgain
 )
 
 
@@ -232,6 +251,32 @@ class Compared(FromServer, frozen=True, tag="compared"):
 
     image: int
     caps: list[ComparedCap]
+
+
+class MarkAgain(FromServer, frozen=True, tag="mark_again"):
+    """Answers AskAgain: a piece of a photo, without any label, on which a cap is to be marked."""
+
+    annotation: str
+    photo: str
+    """URL of the photo."""
+    width: int
+    """Of the photo, pixels."""
+    box: tuple[float, float, float, float]
+    """What to show of it: left, top, right, bottom."""
+    at: tuple[float, float]
+    """A point of the cap that is in sight, not its centre."""
+    mirrored: bool
+    """Left and right are to be exchanged."""
+    mark: Literal["circle", "polygon"]
+    """As the cap was marked before."""
+    left: int
+    """How many are due, with this one."""
+
+
+class KeptAgain(FromServer, frozen=True, tag="kept_again"):
+    """A second mark is on disk."""
+
+    id: str
 
 
 class StatusChanged(FromServer, frozen=True, tag="status"):
@@ -323,6 +368,8 @@ Outgoing = (
     | Predicted
     | FoundCap
     | Compared
+    | MarkAgain
+    | KeptAgain
     | Fitted
     | JobProgress
     | Command

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, get_args
 
 from msgspec import Struct, structs
-from sqlalchemy import ColumnElement, Connection, case, delete, func, insert, select
+from sqlalchemy import ColumnElement, Connection, and_, case, delete, func, insert, select, update
 
-from fairyring.storage.db.schema import compared_cap, image
+from fairyring.storage.db.schema import compared_cap, comparison, image
 
-Kind = Literal["worst", "missed", "extra", "doubtful", "unsure"]
+Kind = Literal["worst", "missed", "extra", "doubtful", "unsure", "ignored"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
@@ -26,19 +26,33 @@ class CapFigures(Struct, frozen=True, kw_only=True):
     cdr: float | None = None
     """CDR, percent (Eq. 10)."""
     floor: float | None = None
-    """CDR that the mark has by itself, percent."""
+    """CDR that the mark has by itself, percent; as repeats of its annotator say, where there are enough."""
+    own_floor: float | None = None
+    """The same by the geometry of the mark alone."""
+    dx: float | None = None
+    """Predicted minus marked x, pixels; ``dy`` likewise."""
+    dy: float | None = None
+    annotator: str | None = None
+    """Who edited it last; of an extra prediction None, as are the next three."""
+    size: str | None = None
+    shape: str | None = None
+    visibility: str | None = None
     doubtful: bool = False
     unsure: bool = False
     """Its mark hardly determines a centre."""
+    ignored: bool = False
+    """It counts neither way, so it is of no other kind."""
 
 
 _C = compared_cap.c
+_COUNTS = _C.ignored == 0
 _WHICH: dict[Kind, ColumnElement[bool]] = {
     "worst": _C.cdr.is_not(None),
-    "missed": _C.prediction.is_(None),
+    "missed": and_(_COUNTS, _C.prediction.is_(None)),
     "extra": _C.annotation.is_(None),
-    "doubtful": _C.doubtful == 1,
-    "unsure": _C.unsure == 1,
+    "doubtful": and_(_COUNTS, _C.doubtful == 1),
+    "unsure": and_(_COUNTS, _C.unsure == 1),
+    "ignored": _C.ignored == 1,
 }
 
 
@@ -47,6 +61,39 @@ def store_caps(connection: Connection, image_id: int, run_id: int, caps: Sequenc
     connection.execute(delete(compared_cap).where(_C.image == image_id, _C.run == run_id))
     if caps:
         connection.execute(insert(compared_cap), [structs.asdict(each) for each in caps])
+
+
+def scale_floors(
+    connection: Connection,
+    annotator: str,
+    *,
+    overall: float,
+    by_class: Mapping[tuple[str | None, str | None, str | None], float],
+) -> None:
+    """Has the floors of somebody's marks be so many times those of their geometry; within ``Project.write``.
+
+    Args:
+        connection: to write by.
+        annotator: whose marks.
+        overall: for all marks of other classes than these.
+        by_class: for marks of a size, shape and visible share.
+    """
+    of_person = update(compared_cap).where(_C.annotator == annotator)
+    connection.execute(of_person.values(floor=_C.own_floor * overall))
+    for (size, shape, visibility), times in by_class.items():
+        of_class = of_person.where(
+            _C.size.is_not_distinct_from(size),
+            _C.shape.is_not_distinct_from(shape),
+            _C.visibility.is_not_distinct_from(visibility),
+        )
+        connection.execute(of_class.values(floor=_C.own_floor * times))
+    mean = (
+        select(func.avg(_C.floor))
+        .where(_C.image == comparison.c.image, _C.run == comparison.c.run, _C.cdr.is_not(None))
+        .scalar_subquery()
+    )
+    theirs = select(_C.image).where(_C.annotator == annotator)
+    connection.execute(update(comparison).where(comparison.c.image.in_(theirs)).values(floor_mean=mean))
 
 
 def list_caps(

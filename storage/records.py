@@ -178,6 +178,26 @@ class Rules(Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     approve_own: bool = False
     """Whether somebody may approve what they have labelled themselves."""
+    repeat_share: float = 0.0
+    """Share of the marked caps, 0 to 1, that people are asked to mark again."""
+    repeat_seed: int = 1
+    """Which caps these are follows from it."""
+
+
+class Repeat(Struct, frozen=True, kw_only=True):
+    """A cap that somebody marked twice; no label, and never exported as one."""
+
+    id: str
+    """Chosen by the browser: the same id a second time changes nothing."""
+    annotation: str
+    image: int
+    user: str
+    mirrored: bool
+    """Whether the second mark was placed on a mirrored photo; it is kept as it lies on the photo itself."""
+    first: Mark
+    second: Mark
+    size: str | None
+    visibility: str | None
 
 
 class SamplingPlan(Struct, frozen=True, kw_only=True):

@@ -34,6 +34,7 @@ TABLES: tuple[Table, ...] = (
     schema.edit,
     schema.status_change,
     schema.verdict,
+    schema.repeat,
     schema.comparison,
     schema.compared_cap,
 )

@@ -15,9 +15,11 @@ from typing import TypeVar
 
 import anyio.to_thread
 
+from fairyring.app.caps.cap_figures import Sides, figures_of_caps
 from fairyring.app.caps.filling_in import fill_in, one_by_one
 from fairyring.app.caps.image_caps import ImageCaps
-from fairyring.app.caps.records import floor_of_mark, is_unsure, prediction_record, truth_record
+from fairyring.app.caps.records import prediction_record, truth_record
+from fairyring.app.caps.repeated import Marks, marks_on
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.evaluate import centres
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
@@ -78,9 +80,10 @@ def compare_image(project: Project, image_id: int, *, run: Run = here) -> Compar
         image, latest = get_image(connection, image_id), load_latest_run(connection, image_id)
         annotations = load_annotations(connection, image_id)
         predictions = load_predictions(connection, image_id)
+        marks = marks_on(connection, image_id)
     if latest is None:
         return None
-    figures, caps = run(_compared, latest.id, version, image, annotations, predictions)
+    figures, caps = run(_compared, (latest.id, version), image, annotations, predictions, marks)
     project.write(lambda connection: store_comparison(connection, figures, caps=caps))
     return figures
 
@@ -133,21 +136,25 @@ class Reviewer:
 
 
 def _compared(
-    run_id: int,
-    version: int,
+    run_and_version: tuple[int, int],
     image: Image,
     annotations: Sequence[Annotation],
     predictions: Sequence[Prediction],
+    marks: Marks,
 ) -> tuple[Comparison, list[CapFigures]]:
-    found = compare(image, annotations, predictions)
+    run_id, version = run_and_version
+    truths = [truth_record(annotation, image) for annotation in annotations]
+    guesses = [prediction_record(prediction, image) for prediction in predictions]
+    found = centres.compare(truths, guesses, width=image.width, height=image.height)
+    sides = Sides(image=image, annotations=annotations, truths=truths, predictions=predictions, marks=marks)
+    caps = figures_of_caps(sides, found, run_id=run_id)
     summary = centres.summarise(found.errors)
     real = [annotation for annotation in annotations if not annotation.cap.ignored]
     worst = max(
         ((pair.error.cdr, annotations[pair.truth].uid) for pair in found.pairs if pair.error), default=None
     )
     dx, dy = summary.bias_px or (None, None)
-    floors = [floor_of_mark(annotations[pair.truth], image) for pair in found.pairs if pair.error]
-    known = [floor for floor in floors if floor is not None]
+    known = [cap.floor for cap in caps if cap.cdr is not None and cap.floor is not None]
     overlaps = [pair.iou for pair in found.pairs if pair.iou is not None]
     figures = Comparison(
         image=image.id,
@@ -168,33 +175,4 @@ def _compared(
         dx=dx,
         dy=dy,
     )
-    return figures, _figures_of_caps(image, run_id, annotations, predictions, found)
-
-
-def _figures_of_caps(
-    image: Image,
-    run_id: int,
-    annotations: Sequence[Annotation],
-    predictions: Sequence[Prediction],
-    found: centres.Comparison,
-) -> list[CapFigures]:
-    """Of every cap that counts, and of every prediction that nobody drew."""
-    partners: list[tuple[Annotation | None, Prediction | None, centres.Pair | None]] = [
-        *((annotations[pair.truth], predictions[pair.prediction], pair) for pair in found.pairs),
-        *((annotations[number], None, None) for number in found.missed),
-        *((None, predictions[number], None) for number in found.extra),
-    ]
-    return [
-        CapFigures(
-            image=image.id,
-            run=run_id,
-            annotation=said.uid if said else None,
-            prediction=guessed.id if guessed else None,
-            iou=pair.iou if pair else None,
-            cdr=pair.error.cdr if pair and pair.error else None,
-            floor=floor_of_mark(said, image) if said else None,
-            doubtful=said is not None and said.cap.doubtful,
-            unsure=said is not None and is_unsure(said),
-        )
-        for said, guessed, pair in partners
-    ]
+    return figures, caps

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fairyring.app.caps.comparison import compare
-from fairyring.app.caps.records import floor_of_mark
+from fairyring.app.caps.records import prediction_record, truth_record
+from fairyring.app.caps.repeated import Marks
 from fairyring.app.protocol import ComparedCap
+from fairyring.model.evaluate.centres import compare
 from fairyring.storage.records import Annotation, Image, Prediction
+
+NOBODYS = Marks()
 
 
 def differences_of(
-    image: Image, annotations: Sequence[Annotation], predictions: Sequence[Prediction]
+    image: Image,
+    annotations: Sequence[Annotation],
+    predictions: Sequence[Prediction],
+    marks: Marks = NOBODYS,
 ) -> list[ComparedCap]:
     """Every cap with the prediction that matches it, those first that a reviewer should look at first.
 
@@ -21,14 +27,16 @@ def differences_of(
     """
     if not predictions:
         return []
-    found = compare(image, annotations, predictions)
+    truths = [truth_record(annotation, image) for annotation in annotations]
+    guesses = [prediction_record(prediction, image) for prediction in predictions]
+    found = compare(truths, guesses, width=image.width, height=image.height)
     matched = [
         ComparedCap(
             annotation=annotations[pair.truth].uid,
             prediction=predictions[pair.prediction],
             iou=pair.iou,
             cdr=pair.error.cdr if pair.error else None,
-            floor=floor_of_mark(annotations[pair.truth], image),
+            floor=marks.floor_of(annotations[pair.truth], truths[pair.truth], image),
         )
         for pair in found.pairs
     ]

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from fairyring.model.contour.marks import reconstruction_of_mark
+from fairyring.model.contour.marks import LEAST_RATIO, reconstruction_of_mark
+from fairyring.model.evaluate.cap_rows import visibility_class
 from fairyring.model.evaluate.caps import CapRecord
 from fairyring.model.evaluate.human_floor import cdr_of_noise
+from fairyring.model.evaluate.repeated_marks import CapClass
+from fairyring.model.evaluate.sizes import size_of_cap
 from fairyring.model.geometry.raster import area_of_rle, rle_of_outline
-from fairyring.model.geometry.shapes import area_of_outline, diameter_of_shape, polygon_of_shape
+from fairyring.model.geometry.shapes import (
+    Circle,
+    Ellipse,
+    area_of_outline,
+    diameter_of_shape,
+    polygon_of_shape,
+)
 from fairyring.storage.open_predictions import covered_by
-from fairyring.storage.records import Annotation, Image, Prediction, Shape
+from fairyring.storage.records import Annotation, Image, Mark, Prediction, Shape
 
 UNSURE = 0.05
 """A mark whose centre is off by more than this share of the cap's diameter is an unsure one."""
@@ -43,15 +52,38 @@ def sd_of_mark(annotation: Annotation) -> tuple[float, float] | None:
 
 
 def is_unsure(annotation: Annotation) -> bool:
-    """Whether somebody marked a cap in such a way that its centre is hardly determined."""
-    sd, whole = sd_of_mark(annotation), annotation.whole
-    return sd is not None and whole is not None and max(sd) > UNSURE * diameter_of_shape(whole)
+    """Whether somebody marked a cap in such a way that its centre is hardly determined.
+
+    So it is where the mark's points lie on too little of the rim, where there are too few of them, or the
+    same again and again, and where an imported ellipse is narrower than any cap.
+    """
+    mark, sd, whole = annotation.cap.mark, sd_of_mark(annotation), annotation.whole
+    if mark is None:
+        return False
+    if isinstance(mark, Ellipse):
+        return mark.b < LEAST_RATIO * mark.a
+    return sd is None or (whole is not None and max(sd) > UNSURE * diameter_of_shape(whole))
 
 
 def floor_of_mark(annotation: Annotation, image: Image) -> float | None:
-    """CDR, percent, that the mark of an annotation has by itself; None where that is not known."""
+    """CDR, percent, that the mark of an annotation has by its geometry; None where that is not known."""
     sd = sd_of_mark(annotation)
     return None if sd is None else cdr_of_noise(sd, width=image.width, height=image.height)
+
+
+def class_of_mark(record: CapRecord, mark: Mark | None, *, annotator: str) -> CapClass:
+    """What kind of mark a cap has, and whose."""
+    return CapClass(
+        annotator=annotator,
+        size=size_of_cap(record),
+        shape=None if mark is None else shape_of_mark(mark),
+        visibility=visibility_class(record.visible_share),
+    )
+
+
+def shape_of_mark(mark: Mark) -> str:
+    """Regular caps are marked by circles, all others are not (section 6.3.1 of the paper)."""
+    return "regular" if isinstance(mark, Circle) else "irregular"
 
 
 def prediction_record(prediction: Prediction, image: Image) -> CapRecord:

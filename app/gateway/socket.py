@@ -19,6 +19,7 @@ from fairyring.app.live.finding import Finding
 from fairyring.app.live.opening import open_image, reopen, step
 from fairyring.app.live.queues import take_up_queue
 from fairyring.app.live.recalling import recall
+from fairyring.app.live.repeating import ask_again, keep_again
 from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
 from fairyring.app.live.tagging import tag
@@ -29,6 +30,7 @@ from fairyring.app.panels.layout import build_panel
 from fairyring.app.panels.predict import predict_one
 from fairyring.app.panels.window import follow_window
 from fairyring.app.protocol import (
+    AskAgain,
     Cancel,
     Compare,
     Compared,
@@ -37,6 +39,7 @@ from fairyring.app.protocol import (
     FromServer,
     Hello,
     Incoming,
+    MarkedAgain,
     Open,
     Outcomes,
     Predict,
@@ -200,6 +203,10 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
             session.refresh("status")
         case Window() | Tag() | Predict() | Cancel() | Compare() | ShowCaps():
             await _carry_out_for_panel(workspace, session, message)
+        case AskAgain(quiet=quiet):
+            await ask_again(workspace, session, quiet=quiet)
+        case MarkedAgain():
+            await keep_again(workspace, session, message)
         case Hello():
             session.notify("This tab has said hello before.", "warning")
 

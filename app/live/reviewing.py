@@ -8,6 +8,7 @@ import anyio.to_thread
 from sqlalchemy import Connection
 
 from fairyring.app.caps.differences import differences_of
+from fairyring.app.caps.repeated import Marks, marks_on
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Compared
@@ -24,9 +25,12 @@ async def tell_differences(workspace: Workspace, session: Session, image_id: int
     session.send(Compared(image=image_id, caps=found))
 
 
-def _load(connection: Connection, *, image_id: int) -> tuple[Image, list[Annotation], list[Prediction]]:
+def _load(
+    connection: Connection, *, image_id: int
+) -> tuple[Image, list[Annotation], list[Prediction], Marks]:
     return (
         get_image(connection, image_id),
         load_annotations(connection, image_id),
         load_predictions(connection, image_id),
+        marks_on(connection, image_id),
     )

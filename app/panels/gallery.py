@@ -26,6 +26,7 @@ WORDS: dict[Kind, str] = {
     "extra": "extra",
     "doubtful": "doubtful",
     "unsure": "unsure marks",
+    "ignored": "ignored",
 }
 ABOUT: dict[Kind, str] = {
     "worst": "Furthest above the floor of their marks first.",
@@ -33,6 +34,7 @@ ABOUT: dict[Kind, str] = {
     "extra": "Predicted, and not annotated.",
     "doubtful": "A careful person could disagree.",
     "unsure": "Their marks hardly determine a centre.",
+    "ignored": "They count neither way.",
 }
 
 

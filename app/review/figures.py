@@ -14,12 +14,14 @@ import numpy as np
 from msgspec import structs, to_builtins
 
 from fairyring.app.caps.filling_in import fill_in
-from fairyring.app.caps.records import floor_of_mark, is_unsure
+from fairyring.app.caps.records import is_unsure
+from fairyring.app.caps.repeated import floor_figures, repeated_marks
 from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
 from fairyring.model.evaluate.cap_rows import Measured, measured_caps
 from fairyring.model.evaluate.centre_figures import figures_of_caps, grouped
 from fairyring.model.evaluate.centres import compare, summarise
 from fairyring.model.evaluate.pages import Page
+from fairyring.model.evaluate.repeated_marks import RepeatedMark
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image
@@ -55,6 +57,8 @@ class Review:
     """File names of the images that nobody has worked on."""
     left_out: int
     """How many caps were left out as doubtful or unsure."""
+    repeats: list[RepeatedMark]
+    """Caps that somebody marked twice."""
 
 
 def review_of(project: Project, *, only_sure: bool = False, progress: Progress = silent) -> Review:
@@ -75,6 +79,7 @@ def review_of(project: Project, *, only_sure: bool = False, progress: Progress =
     fill_in(project, progress=progress)
     with project.read() as connection:
         numbers, untouched = worked_on(connection)
+        repeats = repeated_marks(connection)
         for done, seen in enumerate(reviewed_images(connection, numbers)):
             progress(done, len(numbers), "Comparing caps with predictions")
             found = _caps_of(seen, place=len(pages))
@@ -83,7 +88,9 @@ def review_of(project: Project, *, only_sure: bool = False, progress: Progress =
             images.append(seen.image)
             pages.append(structs.replace(seen.page, truths=[], predictions=[]))
             caps += kept
-    return Review(images=images, pages=pages, caps=caps, untouched=untouched, left_out=left_out)
+    return Review(
+        images=images, pages=pages, caps=caps, untouched=untouched, left_out=left_out, repeats=repeats
+    )
 
 
 def figures_of(review: Review) -> dict[str, Any]:
@@ -105,6 +112,7 @@ def figures_of(review: Review) -> dict[str, Any]:
         "worst": [_row(cap) for cap in worst_caps(review.caps)],
         "untouched": review.untouched,
         "left_out": review.left_out,
+        "marked_again": floor_figures(review.repeats),
     }
 
 
@@ -132,8 +140,8 @@ def _reviewed(seen: ReviewedImage, measured: Measured) -> ReviewedCap:
     return ReviewedCap(
         measured=measured,
         image=image.id,
-        annotator=seen.annotators[annotation.uid],
-        floor=floor_of_mark(annotation, image),
+        annotator=seen.marks.editors[annotation.uid],
+        floor=seen.marks.floor_of(annotation, seen.page.truths[measured.truth], image),
         is_unsure=is_unsure(annotation),
         is_doubtful=annotation.cap.doubtful,
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from sqlalchemy import Connection
 
 from fairyring.app.caps.records import prediction_record, truth_record
+from fairyring.app.caps.repeated import Marks, hands_known
 from fairyring.model.evaluate.pages import Page
 from fairyring.storage.contents import load_annotations, load_editors, load_predictions
 from fairyring.storage.images import ImageFilter, get_image, list_ids
@@ -23,8 +24,8 @@ class ReviewedImage:
     predictions: list[Prediction]
     """Of the latest run that saw the image."""
     page: Page
-    annotators: dict[str, str]
-    """Who edited each annotation last, by uid."""
+    marks: Marks
+    """Whose they are, and how far off these people's marks are."""
 
 
 def worked_on(connection: Connection) -> tuple[list[int], list[str]]:
@@ -46,6 +47,7 @@ def worked_on(connection: Connection) -> tuple[list[int], list[str]]:
 
 def reviewed_images(connection: Connection, numbers: list[int]) -> Iterator[ReviewedImage]:
     """The images of these numbers, one after the other."""
+    hands = hands_known(connection)
     for number in numbers:
         image = get_image(connection, number)
         annotations = load_annotations(connection, number)
@@ -59,4 +61,5 @@ def reviewed_images(connection: Connection, numbers: list[int]) -> Iterator[Revi
             light=image.light,
             form=image.form,
         )
-        yield ReviewedImage(image, annotations, predictions, page, load_editors(connection, number))
+        marks = Marks(editors=load_editors(connection, number), hands=hands)
+        yield ReviewedImage(image, annotations, predictions, page, marks)

@@ -77,11 +77,16 @@ def measured_caps(place: int, page: Page, comparison: Comparison) -> Iterator[Me
 
 def visibility_of(row: CapRow) -> str | None:
     """How much of a cap is in sight, in three classes."""
-    if row.visible_share is None:
+    return visibility_class(row.visible_share)
+
+
+def visibility_class(share: float | None) -> str | None:
+    """The same of the share of the whole cap that is in sight, 0 to 1."""
+    if share is None:
         return None
-    if row.visible_share < LITTLE:
+    if share < LITTLE:
         return "under_60_percent"
-    return "60_to_95_percent" if row.visible_share < WHOLE else "95_percent_and_more"
+    return "60_to_95_percent" if share < WHOLE else "95_percent_and_more"
 
 
 def _row(

@@ -16,6 +16,7 @@ import { travelIn } from "./input/travel.js";
 import { Opening } from "./opening.js";
 import { performer } from "./performing.js";
 import { expose } from "./probe.js";
+import { Repeating } from "./repeating.js";
 import { Reviewing } from "./reviewing.js";
 import { receiver } from "./receiving.js";
 import { Frame } from "./render/frame.js";
@@ -75,6 +76,7 @@ export class Editor {
   #toolbox;
   #found;
   #reviewing;
+  #repeating;
   #perform;
   #going;
   #receive;
@@ -107,6 +109,7 @@ export class Editor {
       }),
     });
     this.#reviewing = new Reviewing(state, send);
+    this.#repeating = new Repeating(send, (text, level) => this.#say(text, level));
     this.#found = new CapRequests(send, () => state.image?.id ?? null);
     const sight = {
       state,
@@ -175,6 +178,7 @@ export class Editor {
       ...sight,
       suggestion,
       reviewing: this.#reviewing,
+      repeating: this.#repeating,
       send,
       say: (text) => this.#say(text),
       toggle: (layer) => state.layers.toggle(layer),
@@ -184,6 +188,7 @@ export class Editor {
       state,
       sync: this.#sync,
       reviewing: this.#reviewing,
+      repeating: this.#repeating,
       liveFit: this.#liveFit,
       found: this.#found,
       opening: this.#opening,

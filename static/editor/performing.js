@@ -20,6 +20,7 @@ import { askWords } from "./ui/words_asked.js";
  * @property {Pointer} pointer
  * @property {RimSuggestion} suggestion
  * @property {import("./reviewing.js").Reviewing} reviewing
+ * @property {import("./repeating.js").Repeating} repeating
  */
 
 /**
@@ -27,7 +28,7 @@ import { askWords } from "./ui/words_asked.js";
  *
  * @type {(parts: Own & Pick<Context, "state" | "send" | "say" | "toggle" | "askScore" | "patch" | "rimIn">) => (name: string) => boolean}
  */
-export function performer({ host, toolbox, sync, pointer, suggestion, reviewing, ...passed }) {
+export function performer({ host, toolbox, sync, pointer, suggestion, reviewing, repeating, ...passed }) {
   /** @type {Context} */
   const context = {
     ...passed,
@@ -43,6 +44,7 @@ export function performer({ host, toolbox, sync, pointer, suggestion, reviewing,
     judge: (annotation, says, words) => sync.judge(annotation, says, words),
     review: reviewing.review,
     blink: () => reviewing.blink(),
+    markAgain: (how) => repeating.ask(how),
     ask,
     askWords,
     switchFocus: () => switchFocus(host),

@@ -47,6 +47,8 @@
 /** @typedef {import("./messages/to_server.js").Tag} Tag */
 /** @typedef {import("./messages/to_server.js").Predict} Predict */
 /** @typedef {import("./messages/to_server.js").Cancel} Cancel */
+/** @typedef {import("./messages/to_server.js").AskAgain} AskAgain */
+/** @typedef {import("./messages/to_server.js").MarkedAgain} MarkedAgain */
 /** @typedef {import("./messages/to_server.js").ToServer} ToServer */
 
 /** @typedef {import("./messages/from_server.js").Welcome} Welcome */
@@ -59,6 +61,8 @@
 /** @typedef {import("./messages/from_server.js").Predicted} Predicted */
 /** @typedef {import("./messages/from_server.js").ComparedCap} ComparedCap */
 /** @typedef {import("./messages/from_server.js").Compared} Compared */
+/** @typedef {import("./messages/from_server.js").MarkAgain} MarkAgain */
+/** @typedef {import("./messages/from_server.js").KeptAgain} KeptAgain */
 /** @typedef {import("./messages/from_server.js").FoundCap} FoundCap */
 /** @typedef {import("./messages/from_server.js").Arc} Arc */
 /** @typedef {import("./messages/from_server.js").Fit} Fit */

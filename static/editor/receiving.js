@@ -7,6 +7,7 @@ import { showJob } from "./ui/job_lines.js";
  * @property {import("./state/editor_state.js").EditorState} state
  * @property {import("./sync/sync.js").Sync} sync
  * @property {import("./reviewing.js").Reviewing} reviewing
+ * @property {import("./repeating.js").Repeating} repeating
  * @property {import("./sync/live_fit.js").LiveFit} liveFit
  * @property {import("./sync/cap_requests.js").CapRequests} found
  * @property {import("./opening.js").Opening} opening
@@ -17,7 +18,7 @@ import { showJob } from "./ui/job_lines.js";
  */
 
 /** Hands what the server says to whom it concerns. @type {(parts: Parts) => (message: FromServer) => void} */
-export function receiver({ state, sync, reviewing, liveFit, found, opening, perform, say, user, progress }) {
+export function receiver({ state, sync, reviewing, repeating, liveFit, found, opening, perform, say, user, progress }) {
   return (message) => {
     sync.heard();
     switch (message.type) {
@@ -30,6 +31,10 @@ export function receiver({ state, sync, reviewing, liveFit, found, opening, perf
         return reviewing.ask();
       case "compared":
         return reviewing.take(message);
+      case "mark_again":
+        return void repeating.take(message);
+      case "kept_again":
+        return repeating.kept(message.id);
       case "status":
         return sync.statusChanged(message.image, message.status, message.user === user());
       case "recalled":

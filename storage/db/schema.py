@@ -220,6 +220,23 @@ queue = Table(
     **NEVER_REUSED,
 )
 
+repeat = Table(
+    "repeat",
+    metadata,
+    Column("sequence", Integer, primary_key=True),
+    Column("id", Text, nullable=False, unique=True),
+    Column("annotation", Text, ForeignKey("annotation.uid"), nullable=False, index=True),
+    Column("image", Integer, ForeignKey("image.id"), nullable=False, index=True),
+    Column("user", Text, nullable=False),
+    Column("mirrored", Flag, nullable=False),
+    Column("first", Json(Mark), nullable=False),
+    Column("second", Json(Mark), nullable=False),
+    Column("size", Text),
+    Column("visibility", Text),
+    Column("made_at", Text, nullable=False),
+    **NEVER_REUSED,
+)
+
 comparison = Table(
     "comparison",
     metadata,
@@ -257,6 +274,14 @@ compared_cap = Table(
     Column("floor", Real),
     Column("doubtful", Flag, nullable=False),
     Column("unsure", Flag, nullable=False),
+    Column("annotator", Text),
+    Column("size", Text),
+    Column("shape", Text),
+    Column("visibility", Text),
+    Column("own_floor", Real),
+    Column("dx", Real),
+    Column("dy", Real),
+    Column("ignored", Flag, nullable=False, server_default="0"),
     Index(None, "run", "image"),
     **NEVER_REUSED,
 )

@@ -34,6 +34,7 @@ DRAWINGS = {
         judging
         statuses  splits  exported_photos
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
+        repeats
         change_sets  verdicts  rules  queues  candidates  compared_caps
         db  cap_validity  open_predictions  originals
         serving  whole_folders

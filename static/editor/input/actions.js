@@ -76,6 +76,7 @@ export const ACTIONS = {
   send_back: (context) => void sendBack(context),
   reject: (context) => void reject(context),
   comment: (context) => void comment(context),
+  mark_again: ({ markAgain }) => markAgain({ quiet: false }),
   magnify: ({ review }) => review.magnify(),
   blink: ({ blink }) => blink(),
   loupe: ({ state }) => state.look.set({ loupe: !state.look.now.loupe }),

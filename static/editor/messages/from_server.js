@@ -93,6 +93,25 @@
  */
 
 /**
+ * @typedef {Object} MarkAgain
+ * @property {"mark_again"} type
+ * @property {string} annotation
+ * @property {string} photo
+ * @property {number} width
+ * @property {[number, number, number, number]} box
+ * @property {Point} at
+ * @property {boolean} mirrored
+ * @property {"circle" | "polygon"} mark
+ * @property {number} left
+ */
+
+/**
+ * @typedef {Object} KeptAgain
+ * @property {"kept_again"} type
+ * @property {string} id
+ */
+
+/**
  * @typedef {Object} FoundCap
  * @property {"found_cap"} type
  * @property {number} seq
@@ -148,6 +167,6 @@
  * @property {"info" | "warning" | "error"} level
  */
 
-/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Compared | Fitted | JobProgress | Command | Notice} FromServer */
+/** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Compared | MarkAgain | KeptAgain | Fitted | JobProgress | Command | Notice} FromServer */
 
 export {};

@@ -5,8 +5,10 @@
  */
 
 /** @typedef {import("./records.js").Cap} Cap */
+/** @typedef {import("./records.js").Circle} Circle */
 /** @typedef {import("./records.js").Edit} Edit */
 /** @typedef {import("./records.js").Point} Point */
+/** @typedef {import("./records.js").Polygon} Polygon */
 /** @typedef {import("./records.js").StatusEdit} StatusEdit */
 /** @typedef {import("./records.js").Verdict} Verdict */
 /** @typedef {import("./records.js").Way} Way */
@@ -85,7 +87,22 @@
 /**
  * @typedef {Object} ShowCaps
  * @property {"show_caps"} type
- * @property {"worst" | "missed" | "extra" | "doubtful" | "unsure"} kind
+ * @property {"worst" | "missed" | "extra" | "doubtful" | "unsure" | "ignored"} kind
+ */
+
+/**
+ * @typedef {Object} AskAgain
+ * @property {"ask_again"} type
+ * @property {boolean} quiet
+ */
+
+/**
+ * @typedef {Object} MarkedAgain
+ * @property {"marked_again"} type
+ * @property {string} id
+ * @property {string} annotation
+ * @property {boolean} mirrored
+ * @property {Circle | Polygon} mark
  */
 
 /**
@@ -120,6 +137,6 @@
  * @property {number} job
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare | ShowCaps} ToServer */
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare | ShowCaps | AskAgain | MarkedAgain} ToServer */
 
 export {};

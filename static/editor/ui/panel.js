@@ -50,7 +50,7 @@ function carryOut(target, { open, perform, use, takeBack, send, compare }) {
 
 /** @type {(word: string | undefined) => word is import("../protocol.js").ShowCaps["kind"]} */
 function isKind(word) {
-  return ["worst", "missed", "extra", "doubtful", "unsure"].includes(word ?? "");
+  return ["worst", "missed", "extra", "doubtful", "unsure", "ignored"].includes(word ?? "");
 }
 
 /** Which button says which status. @type {Record<string, import("../protocol.js").Status>} */

@@ -23,6 +23,7 @@
  * @property {(annotation: string | null, says: import("../../protocol.js").Says, words: string) => void} judge  says something of the image on screen, or of a cap of it
  * @property {import("../../state/review.js").Review} review
  * @property {() => void} blink  draws annotations and predictions in turn, or both again
+ * @property {(how: {quiet: boolean}) => void} markAgain  asks for caps that are to be marked again
  * @property {(question: Question) => Promise<boolean>} ask
  * @property {(question: WordsQuestion) => Promise<Said | null>} askWords
  * @property {() => Promise<number | null>} askScore  from which score on predictions are meant; null for none

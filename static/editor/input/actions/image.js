@@ -22,7 +22,9 @@ export function step({ state, send }, by) {
 /** @type {(context: Context) => Promise<void>} */
 export async function finishImage(context) {
   const { image } = context.state;
-  if (image && (await finishAs(context, "annotated"))) context.send({ type: "step", by: 1 });
+  if (!image || !(await finishAs(context, "annotated"))) return;
+  context.send({ type: "step", by: 1 });
+  context.markAgain({ quiet: true });
 }
 
 /**
