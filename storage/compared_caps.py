@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, get_args
 
 from msgspec import Struct, structs
-from sqlalchemy import ColumnElement, Connection, and_, case, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, and_, delete, func, insert, select, update
 
 from fairyring.storage.db.schema import compared_cap, comparison, image
 
@@ -117,12 +117,12 @@ def list_caps(
 
 
 def count_caps(connection: Connection, run_id: int) -> dict[Kind, int]:
-    """How many caps of each kind there are."""
-    counts = [func.coalesce(func.sum(case((_WHICH[kind], 1), else_=0)), 0).label(kind) for kind in KINDS]
+    """How many caps of each kind there are, as counted image by image."""
+    counted = {kind: comparison.c["measured" if kind == "worst" else kind] for kind in KINDS}
     statement = (
-        select(*counts)
-        .select_from(compared_cap.join(image, image.c.id == _C.image))
-        .where(_C.run == run_id, image.c.run == run_id)
+        select(*(func.coalesce(func.sum(column), 0).label(kind) for kind, column in counted.items()))
+        .select_from(comparison.join(image, image.c.id == comparison.c.image))
+        .where(comparison.c.run == run_id, image.c.run == run_id)
     )
     row = connection.execute(statement).one()
     return {kind: getattr(row, kind) for kind in KINDS}

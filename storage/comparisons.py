@@ -28,6 +28,13 @@ class Comparison(Struct, frozen=True, kw_only=True):
     matched: int
     missed: int
     extra: int
+    measured: int = 0
+    """Marked caps with a prediction, whose centres can be compared."""
+    doubtful: int = 0
+    unsure: int = 0
+    """Caps whose mark hardly determines a centre."""
+    ignored: int = 0
+    """Caps that count neither way; of no other kind."""
     cdr_mean: float | None = None
     """Mean CDR, percent (Eq. 10)."""
     iou_mean: float | None = None

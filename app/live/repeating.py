@@ -50,10 +50,10 @@ async def keep_again(workspace: Workspace, session: Session, made: MarkedAgain) 
 def question_about(due: DueRepeat, image: Image, cap: Annotation) -> MarkAgain:
     """What to show of a photo so that a cap can be marked again; the same for the same cap every time."""
     chance = random.Random(due.annotation)
-    x0, y0, x1, y1 = _bounds(cap)
-    side = max(x1 - x0, y1 - y0)
-    x = (x0 + x1) / 2 + chance.uniform(-OFF_CENTRE, OFF_CENTRE) * side
-    y = (y0 + y1) / 2 + chance.uniform(-OFF_CENTRE, OFF_CENTRE) * side
+    left, top, width, height = _bounds(cap)
+    side = max(width, height)
+    x = left + width / 2 + chance.uniform(-OFF_CENTRE, OFF_CENTRE) * side
+    y = top + height / 2 + chance.uniform(-OFF_CENTRE, OFF_CENTRE) * side
     reach = AROUND * side / 2
     return MarkAgain(
         annotation=cap.uid,
@@ -74,6 +74,7 @@ def _load(connection: Connection, *, due: DueRepeat) -> tuple[Image, Annotation]
 
 
 def _bounds(cap: Annotation) -> tuple[float, float, float, float]:
+    """Left, top, width and height of a cap, hidden parts and all."""
     whole = [polygon_of_shape(cap.whole)] if cap.whole is not None else []
     return bounds_of_outline([*cap.cap.visible, *whole])
 
@@ -83,8 +84,8 @@ def _point_in(cap: Annotation, image: Image, chance: random.Random) -> tuple[flo
     outline = cap.cap.visible or ([polygon_of_shape(cap.whole)] if cap.whole is not None else [])
     ys, xs = mask_of_outline(outline, height=image.height, width=image.width).nonzero()
     if not len(xs):
-        x0, y0, x1, y1 = _bounds(cap)
-        return (x0 + x1) / 2, (y0 + y1) / 2
+        left, top, width, height = _bounds(cap)
+        return left + width / 2, top + height / 2
     nth = chance.randrange(len(xs))
     return float(xs[nth]) + 0.5, float(ys[nth]) + 0.5
 

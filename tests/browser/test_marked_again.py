@@ -72,6 +72,9 @@ def test_caps_are_marked_again_mirrored_and_what_comes_of_it_is_no_label(
     dialog.get_by_role("button", name="Take it").wait_for()
     asked = tab.page.evaluate("window.asked")
     assert (asked["annotation"], asked["mirrored"], asked["mark"], asked["left"]) == (uid, True, "circle", 5)
+    left, top, right, bottom = asked["box"]
+    assert left < first.cx - RADIUS < first.cx + RADIUS < right
+    assert top < first.cy - RADIUS < first.cy + RADIUS < bottom
     assert math.hypot(asked["at"][0] - first.cx, asked["at"][1] - first.cy) < RADIUS + 1
     drag_circle(tab, first, asked["box"])
     tab.press("Enter")

@@ -30,7 +30,7 @@ const WORDS = {
 export function markAgain(asked, photo, send, ended) {
   const [x0, y0, x1] = asked.box;
   const scale = SIDE / (x1 - x0);
-  const canvas = element("canvas", { attributes: { width: String(SIDE), height: String(SIDE), "aria-label": WORDS[asked.mark] } });
+  const canvas = element("canvas", { attributes: { width: String(SIDE), height: String(SIDE), tabindex: "0", "aria-label": WORDS[asked.mark] } });
   /** @type {(text: string, click: () => void) => HTMLButtonElement} */
   const button = (text, click) => element("button", { text, attributes: { type: "button" }, click });
   const take = button("Take it (Enter)", finish);
@@ -142,8 +142,9 @@ export function markAgain(asked, photo, send, ended) {
     ended();
   });
   document.body.append(dialog);
-  dialog.showModal();
   draw();
+  dialog.showModal();
+  canvas.focus();
   return { close: () => dialog.close() };
 }
 

@@ -10,6 +10,7 @@ from alembic import op
 
 REAL = sa.Double().with_variant(sa.REAL(), "sqlite")
 TEXTS = ("annotator", "size", "shape", "visibility")
+COUNTS = ("measured", "doubtful", "unsure", "ignored")
 NUMBERS = ("own_floor", "dx", "dy")
 
 revision = "0009"
@@ -48,4 +49,6 @@ def upgrade() -> None:
         op.add_column("compared_cap", sa.Column(name, sa.Text()))
     for name in NUMBERS:
         op.add_column("compared_cap", sa.Column(name, REAL))
+    for name in COUNTS:
+        op.add_column("comparison", sa.Column(name, sa.Integer(), nullable=False, server_default="0"))
     op.add_column("compared_cap", sa.Column("ignored", sa.Integer(), nullable=False, server_default="0"))
