@@ -147,7 +147,7 @@ export default {
         { "name": "send_back", "keys": ["Shift+R"], "words": "Send it back with a comment", "label": "Send back" },
         { "name": "reject", "keys": ["Shift+X"], "words": "Reject it with a reason", "label": "Reject" },
         { "name": "comment", "keys": ["Shift+C"], "words": "Comment on the selected cap or the image", "label": "Comment" },
-        { "name": "mark_again", "keys": ["Shift+N"], "words": "Mark caps again that you are asked for", "label": "Mark again" },
+        { "name": "mark_again", "keys": ["Shift+O"], "words": "Mark caps again that you are asked for", "label": "Mark again" },
         { "name": "magnify", "keys": ["Y"], "words": "Errors of centres ten times as long, or as they are", "label": "Errors × 10" },
         { "name": "blink", "keys": ["Shift+L"], "words": "Drawn and predicted outlines in turn, or both", "label": "Blink" }
       ]

@@ -67,7 +67,7 @@ def test_caps_are_marked_again_mirrored_and_what_comes_of_it_is_no_label(
     tab = open_tab(server, name="Ada")
     tab.page.evaluate(WATCH)
     uid, first = due(project, besides=1)
-    tab.press("Shift+N")
+    tab.press("Shift+O")
     dialog = tab.page.get_by_role("dialog", name="Mark this cap")
     dialog.get_by_role("button", name="Take it").wait_for()
     asked = tab.page.evaluate("window.asked")
