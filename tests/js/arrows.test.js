@@ -14,7 +14,7 @@ const DRAWING = `
   editor
   receiving
   opening  performing  probe  going
-  reviewing
+  reviewing  repeating
   ui  input
   sync  render
   state
