@@ -49,16 +49,11 @@ def _unchecked(connection: Connection, image_id: int) -> list[str]:
 
 def load_annotations(connection: Connection, image_id: int) -> list[Annotation]:
     """The live annotations of an image, in the order in which they were made."""
-    return [each for _, each in load_numbered_annotations(connection, image_id)]
-
-
-def load_numbered_annotations(connection: Connection, image_id: int) -> list[tuple[int, Annotation]]:
-    """The live annotations of an image, each with the number that exports give it."""
     statement = (
         SELECT_ANNOTATIONS.where(annotation.c.image == image_id, annotation.c.deleted == 0)
         .order_by(annotation.c.id)
     )  # fmt: skip
-    return [(row.id, annotation_of(row)) for row in connection.execute(statement)]
+    return [annotation_of(row) for row in connection.execute(statement)]
 
 
 def load_annotation(connection: Connection, uid: str) -> Annotation | None:

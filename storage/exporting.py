@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 import msgspec
 from msgspec import Struct
@@ -15,12 +15,12 @@ from fairyring.model.garbage import garbage_left_alone
 from fairyring.model.processes import worked_on
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.choices import ExportedPhotos, Only
-from fairyring.storage.contents import load_contents, load_numbered_annotations, load_predictions
+from fairyring.storage.contents import load_predictions
 from fairyring.storage.db import schema
 from fairyring.storage.db.rows import image_of
 from fairyring.storage.errors import StoreError
 from fairyring.storage.exported_photos import write_photos
-from fairyring.storage.formats.coco_lines import CapsOfImage, Lines, lines_of, lines_of_packed, packed
+from fairyring.storage.formats.coco_lines import Lines, lines_of, packed
 from fairyring.storage.formats.coco_results import result_entry, write_results
 from fairyring.storage.formats.coco_writing import (
     category_entry,
@@ -29,16 +29,18 @@ from fairyring.storage.formats.coco_writing import (
     write_document,
 )
 from fairyring.storage.project import Project
-from fairyring.storage.provenance import origins_of, standing_of
-from fairyring.storage.records import Annotation, GivenVerdict, Image, Prediction, Run, is_complete
+from fairyring.storage.provenance import standing_of
+from fairyring.storage.records import GivenVerdict, Image, Run, is_complete
 from fairyring.storage.runs import images_seen_by, latest_runs_of, predictions_by
+from fairyring.storage.stored_caps import (
+    stored_annotations,
+    stored_open_predictions,
+    stored_predictions,
+    without_ignored,
+)
 from fairyring.storage.verdicts import all_verdicts
 from fairyring.storage.whole_folders import made_whole
 
-Cap = Annotation | Prediction
-Numbered = list[tuple[int, Cap]]
-Verdicts = defaultdict[tuple[int, str | None], list[GivenVerdict]]
-"""What was said of each image, and of each cap by its uid."""
 BESIDE_ANNOTATIONS = 1 << 31
 """Added to the numbers of predictions that are exported beside annotations, which have lower ones."""
 
@@ -63,6 +65,14 @@ class Wanted(Struct, frozen=True, kw_only=True):
 
 
 ANNOTATED = Wanted()
+
+
+class _Verdicts(NamedTuple):
+    """What reviewers said, by image."""
+
+    on_images: dict[int, list[GivenVerdict]]
+    on_caps: dict[int, dict[str, list[GivenVerdict]]]
+    """By the uid of the cap."""
 
 
 class ExportReport(Struct, frozen=True, kw_only=True):
@@ -155,7 +165,7 @@ def write_set(
             sha256=hashes[image.id],
             partial=_is_partial(image, only),
             licenses=licenses,
-            verdicts=verdicts[image.id, None],
+            verdicts=verdicts.on_images.get(image.id, ()),
         )
         for image in images
     ]
@@ -166,13 +176,12 @@ def write_set(
         "categories": [category_entry(row.name, row.extra, number=row.id) for row in categories],
         "images": listed,
     }
-    numbers = {row.name: row.id for row in categories}
-    caps = _caps(connection, images, wanted, progress=progress)
+    caps = _packed_caps(connection, images, wanted, verdicts, progress=progress)
     with (folder / "instances.json").open("wb") as file:
-        count = write_document(file, head, _lines(connection, caps, numbers, verdicts, jobs=jobs))
+        count = write_document(file, head, _lines(connection, caps, jobs=jobs))
     if results is not None:
-        caps = _caps(connection, images, wanted, progress=progress)
-        write_results(results, _results(caps, numbers))
+        numbers = {row.name: row.id for row in categories}
+        write_results(results, _results(connection, images, wanted, numbers))
     return ExportReport(
         images=len(images),
         annotations=count,
@@ -215,92 +224,64 @@ def _runs(connection: Connection, images: list[Image], wanted: Wanted) -> list[t
     return latest_runs_of(connection, said)
 
 
-def _caps(
-    connection: Connection, images: list[Image], wanted: Wanted, *, progress: Progress
-) -> Iterator[tuple[Image, Numbered]]:
-    """The images, and of each the caps with their numbers in the file."""
-    load = _loader(connection, wanted)
+def _packed_caps(
+    connection: Connection, images: list[Image], wanted: Wanted, verdicts: _Verdicts, *, progress: Progress
+) -> Iterator[bytes]:
+    """Of each image the caps that are written."""
     for done, image in enumerate(images):
         progress(done, len(images), "Writing labels")
-        yield (
-            image,
-            [
-                (number, cap)
-                for number, cap in load(image)
-                if wanted.with_ignored or not (isinstance(cap, Annotation) and cap.cap.ignored)
-            ],
-        )
+        yield _packed_caps_of(connection, image, wanted, verdicts.on_caps.get(image.id, {}))
 
 
-def _loader(connection: Connection, wanted: Wanted) -> Callable[[Image], list[tuple[int, Any]]]:
+def _packed_caps_of(
+    connection: Connection, image: Image, wanted: Wanted, verdicts: dict[str, list[GivenVerdict]]
+) -> bytes:
     run = wanted.run
     if run is not None:
-        return lambda image: [(cap.id, cap) for cap in predictions_by(connection, run.id, image.id)]
+        return packed(image, predictions=stored_predictions(connection, image.id, run_id=run.id))
     if wanted.only == "predicted":
-        return lambda image: [(cap.id, cap) for cap in load_predictions(connection, image.id)]
-    if wanted.only != "all":
-        return lambda image: load_numbered_annotations(connection, image.id)
-
-    def load(image: Image) -> list[tuple[int, Any]]:
-        annotations = load_numbered_annotations(connection, image.id)
-        if annotations or is_complete(image.status):
-            return annotations
-        said = load_contents(connection, image.id).predictions
-        return [(BESIDE_ANNOTATIONS + cap.id, cap) for cap in said]
-
-    return load
+        return packed(image, predictions=stored_predictions(connection, image.id))
+    annotations = stored_annotations(connection, image.id)
+    if wanted.only == "all" and not annotations and not is_complete(image.status):
+        open_ones = stored_open_predictions(connection, image.id)
+        return packed(image, predictions=open_ones, before_predictions=BESIDE_ANNOTATIONS)
+    kept = annotations if wanted.with_ignored else without_ignored(annotations)
+    return packed(image, annotations=kept, verdicts=verdicts)
 
 
-def _verdicts(connection: Connection) -> Verdicts:
-    given: Verdicts = defaultdict(list)
-    for each in all_verdicts(connection):
-        given[each.image, each.annotation].append(each)
-    return given
-
-
-def _lines(
-    connection: Connection,
-    caps: Iterator[tuple[Image, Numbered]],
-    categories: dict[str, int],
-    verdicts: Verdicts,
-    *,
-    jobs: int,
-) -> Iterator[Lines]:
+def _lines(connection: Connection, caps: Iterator[bytes], *, jobs: int) -> Iterator[Lines]:
     """The annotations of each image as they are written, by so many processes where these are worth it."""
-    tasks = (_task(connection, image, numbered, categories, verdicts) for image, numbered in caps)
     if jobs == 1 or (connection.execute(_CAPS).scalar_one() or 0) < WORTH_PROCESSES:
-        return map(lines_of, tasks)
-    return worked_on(lines_of_packed, map(packed, tasks), jobs=jobs)
+        return map(lines_of, caps)
+    return worked_on(lines_of, caps, jobs=jobs)
 
 
 _CAPS = select(func.sum(schema.image.c.caps + schema.image.c.predicted))
 
 
-def _task(
-    connection: Connection,
-    image: Image,
-    numbered: Numbered,
-    categories: dict[str, int],
-    verdicts: Verdicts,
-) -> CapsOfImage:
-    annotations = [(number, cap) for number, cap in numbered if isinstance(cap, Annotation)]
-    said = {cap.uid: verdicts.get((image.id, cap.uid)) for _, cap in annotations}
-    return CapsOfImage(
-        size=(image.width, image.height),
-        categories=categories,
-        annotations=annotations,
-        predictions=[(number, cap) for number, cap in numbered if isinstance(cap, Prediction)],
-        origins=origins_of(connection, image.id) if annotations else {},
-        verdicts={uid: given for uid, given in said.items() if given is not None},
-    )
+def _results(
+    connection: Connection, images: list[Image], wanted: Wanted, categories: dict[str, int]
+) -> Iterator[dict[str, Any]]:
+    run = wanted.run
+    for image in images:
+        if run is None:
+            said = load_predictions(connection, image.id)
+        else:
+            said = predictions_by(connection, run.id, image.id)
+        for each in said:
+            size = image.width, image.height
+            yield result_entry(each, size=size, category=categories[each.category])
 
 
-def _results(caps: Iterator[tuple[Image, Numbered]], categories: dict[str, int]) -> Iterator[dict[str, Any]]:
-    for image, numbered in caps:
-        for _, cap in numbered:
-            if isinstance(cap, Prediction):
-                size = image.width, image.height
-                yield result_entry(cap, size=size, category=categories[cap.category])
+def _verdicts(connection: Connection) -> _Verdicts:
+    on_images: defaultdict[int, list[GivenVerdict]] = defaultdict(list)
+    on_caps: defaultdict[int, defaultdict[str, list[GivenVerdict]]] = defaultdict(lambda: defaultdict(list))
+    for each in all_verdicts(connection):
+        if each.annotation is None:
+            on_images[each.image].append(each)
+        else:
+            on_caps[each.image][each.annotation].append(each)
+    return _Verdicts({**on_images}, {image: {**of_caps} for image, of_caps in on_caps.items()})
 
 
 def _exported(only: Only, runs: list[tuple[Run, int]]) -> dict[str, Any]:

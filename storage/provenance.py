@@ -1,13 +1,11 @@
-"""Where labels come from: who edited a cap, when, from which prediction; and who worked on the project."""
+"""How far a project is, and who worked on it."""
 
 from __future__ import annotations
-
-from typing import Any
 
 from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
-from fairyring.storage.db.schema import annotation, edit, prediction, run, status_change, verdict
+from fairyring.storage.db.schema import edit, run, status_change, verdict
 
 IMPORT = "import"
 """Whom the journal names for imports, unless somebody says who did it."""
@@ -40,24 +38,3 @@ def standing_of(connection: Connection) -> Standing:
         changed_at=max((time for time in times if time), default=None),
         people=sorted(people - {IMPORT}),
     )
-
-
-def origins_of(connection: Connection, image_id: int) -> dict[str, dict[str, Any]]:
-    """Of the live annotations of an image, by uid: revision, by whom, when, and from which prediction."""
-    columns = (
-        *(annotation.c[name] for name in ("uid", "revision", "edited_by", "edited_at", "prediction")),
-        *(run.c.name, prediction.c.score),
-    )
-    statement = (
-        select(*columns)
-        .outerjoin(prediction, prediction.c.id == annotation.c.prediction)
-        .outerjoin(run, run.c.id == prediction.c.run)
-        .where(annotation.c.image == image_id, annotation.c.deleted == 0)
-    )
-    origins: dict[str, dict[str, Any]] = {}
-    for row in connection.execute(statement):
-        origin = {name: getattr(row, name) for name in ("revision", "edited_by", "edited_at")}
-        if row.prediction is not None:
-            origin["prediction"] = {"id": row.prediction, "run": row.name, "score": row.score}
-        origins[row.uid] = origin
-    return origins

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from msgspec.structs import astuple
+from numpy.typing import NDArray
 
 from fairyring.model.geometry.shapes import (
     Centre,
@@ -62,9 +63,14 @@ def whole_keys(shape: Shape, *, visible_area: float | None) -> dict[str, Any]:
     return entry
 
 
+def hidden_shares(visible_shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The ``occlude_rate`` of each of (k,) caps, by the share of its whole outline that is visible."""
+    return np.round(np.clip(1 - visible_shares, 0.0, 1.0), DECIMALS)
+
+
 def occlusion_keys(visible_share: float) -> dict[str, Any]:
     """``occlude_rate``: the share of the whole outline that is hidden or outside the photo."""
-    return {"occlude_rate": round(min(max(1 - visible_share, 0.0), 1.0), DECIMALS)}
+    return {"occlude_rate": float(hidden_shares(np.array([visible_share]))[0])}
 
 
 def centre_keys(centre: Centre | None, *, visibility: int) -> dict[str, Any]:

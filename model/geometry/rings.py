@@ -14,7 +14,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.geometry.shapes import Circle, Points, Shape
+from fairyring.model.geometry.shapes import Circle, Outline, Points, Shape
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.intp]
@@ -40,6 +40,26 @@ class Rings:
         return np.repeat(np.arange(len(self.counts)), self.counts)
 
 
+@dataclass(frozen=True, eq=False)
+class Outlines:
+    """k outlines of one part or more."""
+
+    rings: Rings
+    """The parts of all, outline after outline."""
+    counts: Integers
+    """(k,) how many parts each has."""
+
+    @property
+    def starts(self) -> Integers:
+        """(k,) the index of the first part of each."""
+        return np.cumsum(self.counts) - self.counts
+
+    @property
+    def owners(self) -> Integers:
+        """The outline of each part."""
+        return np.repeat(np.arange(len(self.counts)), self.counts)
+
+
 def rings_of(parts: Sequence[list[float]]) -> Rings:
     """Parts ``[x0, y0, x1, y1, …]`` as one array."""
     counts = np.fromiter((len(part) // 2 for part in parts), np.intp, len(parts))
@@ -53,16 +73,55 @@ def parts_of(rings: Rings) -> list[list[float]]:
     return [flat[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 
 
+def outlines_of(outlines: Sequence[Outline]) -> Outlines:
+    """Outlines as one array."""
+    counts = np.fromiter(map(len, outlines), np.intp, len(outlines))
+    return Outlines(rings_of(list(chain.from_iterable(outlines))), counts)
+
+
+def lists_of(outlines: Outlines) -> list[Outline]:
+    """The outlines as lists of parts."""
+    parts, ends = parts_of(outlines.rings), np.cumsum(outlines.counts).tolist()
+    return [parts[start:end] for start, end in zip([0, *ends], ends, strict=False)]
+
+
+def picked(rings: Rings, which: Integers) -> Rings:
+    """The polygons of these indices, in the order of these."""
+    counts = rings.counts[which]
+    return Rings(rings.points.take(_ranges(rings.starts[which], counts), axis=0), counts)
+
+
+def picked_outlines(outlines: Outlines, which: Integers) -> Outlines:
+    """The outlines of these indices, in the order of these."""
+    counts = outlines.counts[which]
+    return Outlines(picked(outlines.rings, _ranges(outlines.starts[which], counts)), counts)
+
+
+def _ranges(starts: Integers, counts: Integers) -> Integers:
+    """The indices from each start on, as many as its count, range after range."""
+    return np.arange(int(counts.sum())) + np.repeat(starts - (np.cumsum(counts) - counts), counts)
+
+
+def following_of(rings: Rings) -> Integers:
+    """(n,) the index of the vertex after each."""
+    following = np.arange(1, len(rings.points) + 1)
+    following[np.cumsum(rings.counts) - 1] = rings.starts
+    return following
+
+
 def areas_of(rings: Rings) -> Floats:
     """(k,) areas in px²."""
     if not len(rings.counts):
         return np.empty(0)
-    starts, ends = rings.starts, np.cumsum(rings.counts) - 1
-    following = np.arange(1, len(rings.points) + 1)
-    following[ends] = starts
+    starts, following = rings.starts, following_of(rings)
     # From each polygon's first vertex, so that nothing is lost far from the image's corner.
     x, y = (rings.points - np.repeat(rings.points[starts], rings.counts, axis=0)).T
     return np.abs(np.add.reduceat(x * y[following] - y * x[following], starts)) / 2
+
+
+def means_of(rings: Rings) -> Points:
+    """(k, 2) the means of the vertices of each."""
+    return np.add.reduceat(rings.points, rings.starts) / rings.counts[:, None]
 
 
 def bounds_of(rings: Rings) -> tuple[Points, Points]:

@@ -10,13 +10,24 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from msgspec import Struct
+from msgspec import Raw, Struct
+from msgspec.structs import astuple
 from numpy.typing import NDArray
 
-from fairyring.model.coco.writing import DECIMALS, occlusion_keys, rounded, shape_keys
+from fairyring.model.coco.writing import DECIMALS, hidden_shares, rounded
 from fairyring.model.geometry.clipping import clipped_outline
-from fairyring.model.geometry.rings import Rings, areas_of, bounds_of, parts_of, rings_of, rings_of_shapes
-from fairyring.model.geometry.shapes import Circle, Ellipse, GeometryError, Polygon, polygon_of_shape
+from fairyring.model.geometry.rings import (
+    Floats,
+    Outlines,
+    Rings,
+    areas_of,
+    bounds_of,
+    lists_of,
+    outlines_of,
+    picked_outlines,
+    rings_of_shapes,
+)
+from fairyring.model.geometry.shapes import Circle, GeometryError, Polygon, polygon_of_shape
 from fairyring.model.geometry.uniting import united
 from fairyring.storage.records import Mark, Outline, Shape
 
@@ -27,38 +38,16 @@ class Drawn(Struct, frozen=True, kw_only=True):
     """What is known of where a cap is."""
 
     visible: Outline
+    visible_json: Raw | None = None
+    """The same as text, where somebody has it: most outlines are written as they are."""
     mark: Mark | None = None
     whole: Shape | None = None
 
 
-class _Outlines:
-    """The outlines of an image's caps as they are written: their parts as rings, and whose each is."""
-
-    def __init__(self, caps: Sequence[Drawn], size: Size) -> None:
-        outlines = _inside([cap.visible or [_polygon_of(cap.mark)] for cap in caps], size)
-        self.counts = np.array([len(outline) for outline in outlines], np.intp)
-        self.owners: NDArray[np.intp] = np.repeat(np.arange(len(outlines)), self.counts)
-        self.rings = _rounded(rings_of([part for outline in outlines for part in outline]))
-
-    def lists(self) -> list[Outline]:
-        parts, ends = parts_of(self.rings), np.cumsum(self.counts).tolist()
-        return [parts[start:end] for start, end in zip([0, *ends], ends, strict=False)]
-
-    def areas(self) -> list[float]:
-        areas = np.bincount(self.owners, areas_of(self.rings), minlength=len(self.counts))
-        return [round(area, DECIMALS) for area in areas.tolist()]
-
-    def boxes(self) -> list[list[float]]:
-        """Of each outline x, y, width, height."""
-        starts = np.cumsum(self.counts) - self.counts
-        least, greatest = bounds_of(self.rings)
-        least, greatest = np.minimum.reduceat(least, starts), np.maximum.reduceat(greatest, starts)
-        return np.round(np.hstack([least, greatest - least]), DECIMALS).tolist()
-
-
 def written_outline(visible: Outline, mark: Mark | None, *, size: Size) -> Outline:
     """The ``segmentation`` of a cap: its visible outline, else its mark as a polygon."""
-    (outline,) = _Outlines([Drawn(visible=visible, mark=mark)], size).lists()
+    outlines, _ = _inside([Drawn(visible=visible, mark=mark)], size)
+    (outline,) = lists_of(_rounded(outlines))
     return outline
 
 
@@ -70,62 +59,107 @@ def geometry_keys(caps: Sequence[Drawn], *, size: Size) -> list[dict[str, Any]]:
     """
     if not caps:
         return []
-    outlines = _Outlines(caps, size)
-    areas = outlines.areas()
+    outlines, is_cut = _inside(caps, size)
+    written = _rounded(outlines)
+    areas = [round(area, DECIMALS) for area in _areas_of(written).tolist()]
     entries: list[dict[str, Any]] = [
         {"segmentation": outline, "bbox": box, "area": area}
-        for outline, box, area in zip(outlines.lists(), outlines.boxes(), areas, strict=True)
+        for outline, box, area in zip(
+            _segmentations(caps, written, is_cut | _differ(outlines, written)),
+            _boxes_of(written),
+            areas,
+            strict=True,
+        )
     ]
     for entry, cap in zip(entries, caps, strict=True):
         if not cap.visible:
             entry["segmentation_of"] = "mark"
         if isinstance(cap.mark, Polygon):
             entry["mark"] = rounded(cap.mark.points)
-    named = [(nth, shape_keys(cap.whole)) for nth, cap in enumerate(caps) if cap.whole is not None]
-    wholes = _rounded(rings_of_shapes([_shape_of(keys) for _, keys in named]))
-    amodal = _united([nth for nth, _ in named], wholes, outlines)
-    for (nth, shape), outline, area in zip(named, amodal, areas_of(wholes).tolist(), strict=True):
-        entry = entries[nth]
-        entry |= shape
-        entry["amodal_segmentation"] = outline
-        if caps[nth].visible:
-            entry |= occlusion_keys(areas[nth] / area)
+    _add_whole_outlines(entries, caps, written, np.array(areas))
     return entries
 
 
-def _united(numbers: Sequence[int], wholes: Rings, outlines: _Outlines) -> list[Outline]:
-    """Whole outlines, those of the caps of these numbers, with what is written of the caps."""
-    place = np.full(len(outlines.counts), -1)
-    place[numbers] = np.arange(len(numbers))
-    is_seen = place[outlines.owners] >= 0
+def _segmentations(
+    caps: Sequence[Drawn], written: Outlines, is_changed: NDArray[np.bool_]
+) -> list[Outline | Raw]:
+    found: list[Outline | Raw | None] = [cap.visible_json for cap in caps]
+    has_text = np.array([text is not None for text in found])
+    numbers = np.flatnonzero(is_changed | ~has_text)
+    for nth, outline in zip(numbers.tolist(), lists_of(picked_outlines(written, numbers)), strict=True):
+        found[nth] = outline
+    return [outline for outline in found if outline is not None]
+
+
+def _add_whole_outlines(
+    entries: list[dict[str, Any]], caps: Sequence[Drawn], outlines: Outlines, areas: Floats
+) -> None:
+    numbers = np.array([nth for nth, cap in enumerate(caps) if cap.whole is not None], np.intp)
+    shapes = _rounded_shapes([cap.whole for cap in caps if cap.whole is not None])
+    wholes = rings_of_shapes(shapes)
+    wholes = Rings(np.round(wholes.points, DECIMALS), wholes.counts)
+    amodal = lists_of(_rounded(united(wholes, picked_outlines(outlines, numbers))))
+    hidden = hidden_shares(areas[numbers] / areas_of(wholes)).tolist()
+    for nth, shape, outline, share in zip(numbers.tolist(), shapes, amodal, hidden, strict=True):
+        entry = entries[nth]
+        entry["circle" if isinstance(shape, Circle) else "ellipse"] = astuple(shape)
+        entry["amodal_segmentation"] = outline
+        if caps[nth].visible:
+            entry["occlude_rate"] = share
+
+
+def _rounded_shapes(shapes: Sequence[Shape]) -> list[Shape]:
+    """The circles and ellipses as they are written."""
+    if not shapes:
+        return []
+    figures = [astuple(shape) for shape in shapes]
+    flat = np.round(np.array([figure for each in figures for figure in each]), DECIMALS).tolist()
+    figure = iter(flat)
+    return [type(shape)(*(next(figure) for _ in each)) for shape, each in zip(shapes, figures, strict=True)]
+
+
+def _areas_of(outlines: Outlines) -> Floats:
+    """(k,) px²."""
+    return np.add.reduceat(areas_of(outlines.rings), outlines.starts)
+
+
+def _boxes_of(outlines: Outlines) -> list[list[float]]:
+    """Of each x, y, width, height."""
+    least, greatest = bounds_of(outlines.rings)
+    least = np.minimum.reduceat(least, outlines.starts)
+    greatest = np.maximum.reduceat(greatest, outlines.starts)
+    return np.round(np.hstack([least, greatest - least]), DECIMALS).tolist()
+
+
+def _rounded(outlines: Outlines) -> Outlines:
     rings = outlines.rings
-    seen = Rings(rings.points[np.repeat(is_seen, rings.counts)], rings.counts[is_seen])
-    found = united(wholes, seen, place[outlines.owners[is_seen]])
-    parts = iter(parts_of(_rounded(rings_of([part for outline in found for part in outline]))))
-    return [[next(parts) for _ in outline] for outline in found]
+    return Outlines(Rings(np.round(rings.points, DECIMALS), rings.counts), outlines.counts)
 
 
-def _rounded(rings: Rings) -> Rings:
-    return Rings(np.round(rings.points, DECIMALS), rings.counts)
+def _differ(outlines: Outlines, others: Outlines) -> NDArray[np.bool_]:
+    """(k,) whether vertices of each differ from those of another with as many."""
+    moved = (outlines.rings.points != others.rings.points).any(axis=1)
+    of_parts = np.logical_or.reduceat(moved, outlines.rings.starts)
+    return np.logical_or.reduceat(of_parts, outlines.starts)
 
 
-def _shape_of(keys: dict[str, Any]) -> Shape:
-    """The circle or ellipse as it is written."""
-    return Circle(*keys["circle"]) if "circle" in keys else Ellipse(*keys["ellipse"])
+def _inside(caps: Sequence[Drawn], size: Size) -> tuple[Outlines, NDArray[np.bool_]]:
+    """What the photo shows of their outlines, else of their marks; and which were cut (k,).
 
-
-def _inside(outlines: list[Outline], size: Size) -> list[Outline]:
-    """What of them the photo shows; all of a mark beside the photo, which an annotation cannot do without."""
-    rings = rings_of([part for outline in outlines for part in outline])
-    least, greatest = bounds_of(rings)
+    Of a mark beside the photo it is all, which an annotation cannot do without.
+    """
+    drawn = [cap.visible or [_polygon_of(cap.mark)] for cap in caps]
+    outlines = outlines_of(drawn)
+    least, greatest = bounds_of(outlines.rings)
     is_inside = (least >= 0).all(axis=1) & (greatest <= np.array(size)).all(axis=1)
-    owners = np.repeat(np.arange(len(outlines)), [len(outline) for outline in outlines])
-    for nth in np.unique(owners[~is_inside]).tolist():
+    is_cut = np.zeros(len(caps), np.bool_)
+    for nth in np.unique(outlines.owners[~is_inside]).tolist():
         try:
-            outlines[nth] = clipped_outline(outlines[nth], width=size[0], height=size[1])
+            drawn[nth] = clipped_outline(drawn[nth], width=size[0], height=size[1])
         except GeometryError:
             continue
-    return outlines
+        is_cut[nth] = True
+    return outlines_of(drawn) if is_cut.any() else outlines, is_cut
 
 
 def _polygon_of(mark: Mark | None) -> list[float]:

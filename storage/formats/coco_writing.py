@@ -7,6 +7,7 @@ from importlib.metadata import version
 from typing import Any, BinaryIO
 
 import msgspec
+from msgspec import Raw
 
 from fairyring.model.coco.writing import MARKED, RECONSTRUCTED, centre_keys, rounded
 from fairyring.model.geometry.shapes import Circle, Ellipse
@@ -21,13 +22,14 @@ WRITTEN_BY = f"Fairyring {version('fairyring')}"
 NOT_SAID: dict[str, Any] = {}
 
 
-def drawn(cap: Annotation | Prediction) -> Drawn:
-    """Where a cap is."""
+def drawn(cap: Annotation | Prediction, *, visible_json: Raw | None = None) -> Drawn:
+    """Where a cap is; ``visible_json`` is its outline as text, where somebody has it."""
     if isinstance(cap, Prediction):
-        return Drawn(visible=cap.visible, whole=cap.whole)
-    mark = cap.cap.mark
-    whole = mark if isinstance(mark, Circle | Ellipse) else cap.whole
-    return Drawn(visible=cap.cap.visible, mark=mark, whole=whole)
+        return Drawn(visible=cap.visible, visible_json=visible_json, whole=cap.whole)
+    said = cap.cap
+    whole = said.mark if isinstance(said.mark, Circle | Ellipse) else cap.whole
+    text = visible_json if said.visible else None
+    return Drawn(visible=said.visible, visible_json=text, mark=said.mark, whole=whole)
 
 
 def annotation_entry(
@@ -49,21 +51,29 @@ def annotation_entry(
     marked, centre = cap.mark is not None, annotation.centre
     if isinstance(cap.mark, Circle | Ellipse):
         centre = cap.mark.cx, cap.mark.cy
-    entry = geometry | {"image_id": annotation.image, "category_id": category}
-    entry |= {"iscrowd": int(cap.ignored), "marked": marked}
-    entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
-    if annotation.centre_sd is not None:
-        entry["mark_sd" if marked else "center_sd"] = rounded(annotation.centre_sd)
-    entry |= {"doubt": True} if cap.doubtful else {}
-    entry |= {"ignored": True} if cap.ignored else {}
-    entry |= {} if cap.order is None else {"order": cap.order}
     # As long as nobody has touched the cap since it was imported, what its file said of it still holds.
     untouched = annotation.revision == 1
     extra = annotation.extra if untouched else without_geometry(annotation.extra) | origin
+    entry: dict[str, Any] = {"id": number, **origin, **extra, **geometry}
+    entry["image_id"] = annotation.image
+    entry["category_id"] = category
+    entry["iscrowd"] = int(cap.ignored)
+    entry["marked"] = marked
+    entry |= centre_keys(centre, visibility=MARKED if marked else RECONSTRUCTED)
+    if annotation.centre_sd is not None:
+        entry["mark_sd" if marked else "center_sd"] = rounded(annotation.centre_sd)
+    if cap.doubtful:
+        entry["doubt"] = True
+    if cap.ignored:
+        entry["ignored"] = True
+    if cap.order is not None:
+        entry["order"] = cap.order
     if "amodal_segmentation" in extra:
         entry["amodal_segmentation"] = extra["amodal_segmentation"]
-    entry |= verdict_keys(verdicts, extra)
-    return {"id": number} | origin | extra | entry | {"uid": annotation.uid}
+    if verdicts or VERDICTS in extra:
+        entry |= verdict_keys(verdicts, extra)
+    entry["uid"] = annotation.uid
+    return entry
 
 
 def prediction_entry(
