@@ -6,6 +6,7 @@ from typing import Any
 
 from sqlalchemy import Connection, exists, select
 
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.storage.db.rows import (
     SELECT_ANNOTATIONS,
     SELECT_PREDICTIONS,
@@ -19,7 +20,7 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import annotation, image, prediction, run
 from fairyring.storage.open_predictions import offered
-from fairyring.storage.records import IMPORT, Annotation, ImageContents, Prediction, Run
+from fairyring.storage.records import IMPORT, Annotation, ImageContents, Outline, Prediction, Run
 
 
 def load_contents(connection: Connection, image_id: int) -> ImageContents:
@@ -39,7 +40,19 @@ def load_contents(connection: Connection, image_id: int) -> ImageContents:
         predictions=offered(photo, annotations, predictions),
         run=None if row.run is None else load_run(connection, row.run),
         unchecked=_unchecked(connection, image_id),
+        likely=_likely(connection, image_id),
     )
+
+
+def _likely(connection: Connection, image_id: int) -> list[tuple[Outline, LikelyEllipse]]:
+    became = select(annotation.c.prediction).where(annotation.c.image == image_id, annotation.c.deleted == 0)
+    latest = select(image.c.run).where(image.c.id == image_id).scalar_subquery()
+    statement = select(prediction.c.visible, prediction.c.likely_whole).where(
+        prediction.c.image == image_id,
+        prediction.c.likely_whole.is_not(None),
+        (prediction.c.run == latest) | prediction.c.id.in_(became),
+    )
+    return [(row.visible, row.likely_whole) for row in connection.execute(statement)]
 
 
 def _unchecked(connection: Connection, image_id: int) -> list[str]:

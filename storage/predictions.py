@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from sqlalchemy import Connection, func, insert, or_, select, update
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.cap_validity import are_finite, check_cap, check_name
 from fairyring.storage.db.clock import now
@@ -36,6 +37,8 @@ class NewPrediction(Struct, frozen=True, kw_only=True):
     """Score, 0 to 1."""
     quality: float | None = None
     """Expected IoU of the outline with the visible cap, 0 to 1; None where it is not known."""
+    likely_whole: LikelyEllipse | None = None
+    """The whole outline that the model held to be likely; None where it did not say."""
     category: str = DEFAULT_CATEGORY
     fit: Fit = Fit()
     uid: str | None = None
@@ -213,6 +216,7 @@ def _values(
         "visible": cap.visible,
         "score": float(new.score),
         "quality": new.quality,
+        "likely_whole": new.likely_whole,
         "extra": new.extra,
         **values_of_fit(new.fit),
     }

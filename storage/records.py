@@ -11,6 +11,7 @@ from typing import Any, Literal, get_args
 from msgspec import Struct, field
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
 
 Outline = list[list[float]]
@@ -272,3 +273,5 @@ class ImageContents(Struct, frozen=True, kw_only=True):
     run: Run | None
     unchecked: list[str] = field(default_factory=list)
     """Uids of annotations that a file said and no person has touched since."""
+    likely: list[tuple[Outline, LikelyEllipse]] = field(default_factory=list)
+    """Outlines that are shown or became annotations, and the whole ones that models held to be likely."""

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from fairyring.app.caps.fitting import Fitting, known_statistics
+from fairyring.app.caps.fitting import Fitting, Likely, known_statistics
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.workers.worker import ASKED, Task, Worker
 from fairyring.storage.records import Annotation, Image, Prediction
@@ -39,6 +39,8 @@ class Update:
     """All of them, or those that have changed."""
     predictions: Sequence[Prediction] | None
     """None where these are the same, and the copy is only brought up to date."""
+    likely: Likely
+    """What networks said of whole outlines; empty where ``predictions`` is None."""
 
 
 class Copy:
@@ -76,11 +78,17 @@ class Copy:
 
     def _update(self, sent: ImageCaps | None, caps: ImageCaps) -> Update:
         if sent is None or not _goes_on(sent, caps):
-            changed, predictions = dict(caps.annotations), caps.predictions
+            changed, predictions, likely = dict(caps.annotations), caps.predictions, caps.fitting.likely
         else:
-            before, predictions = sent.annotations, None
+            before, predictions, likely = sent.annotations, None, {}
             changed = {uid: now for uid, now in caps.annotations.items() if before.get(uid) is not now}
-        return Update(number=self._number, image=caps.image, annotations=changed, predictions=predictions)
+        return Update(
+            number=self._number,
+            image=caps.image,
+            annotations=changed,
+            predictions=predictions,
+            likely=likely,
+        )
 
 
 def _goes_on(sent: ImageCaps, caps: ImageCaps) -> bool:
@@ -101,7 +109,7 @@ def answer_about(update: Update, work: Callable[..., Any], given: tuple[Any, ...
 def _brought_up_to_date(update: Update) -> ImageCaps:
     before = _kept.pop(update.number, None)
     if update.predictions is not None:
-        fitting = Fitting(update.image, known_statistics(update.image))
+        fitting = Fitting(update.image, known_statistics(update.image), update.likely)
         caps = ImageCaps(update.image, update.annotations, update.predictions, fitting)
     elif before is None:
         raise LostCopyError

@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from sqlalchemy import Connection
 
-from fairyring.app.caps.fitting import Fitting, known_statistics
+from fairyring.app.caps.fitting import NOTHING_SAID, Fitting, Likely, known_statistics
 from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.workers.crew import Run
 from fairyring.model.contour.marks import reconstruction_of_mark
@@ -142,7 +142,8 @@ def _missing(task: _Lacking) -> _Found:
         if contents.run is not None and run == contents.run.id:
             image = replace(image, statistics=of_run.statistics)
     unmarked = [uid for uid in lacking.annotations if caps.annotations[uid].cap.mark is None]
-    of_all = _fitting(image, unmarked if contents.run is None else (), caps.visible)
+    new = unmarked if contents.run is None else ()
+    of_all = _fitting(image, new, caps.visible, caps.fitting.likely)
     annotations = _fits(of_all, caps.visible, unmarked)
     if annotations:
         image = replace(image, statistics=of_all.statistics)
@@ -156,9 +157,10 @@ def _missing(task: _Lacking) -> _Found:
     )
 
 
-def _fitting(image: Image, lacking: Sized, visible: Sized) -> Fitting:
+def _fitting(image: Image, lacking: Sized, visible: Sized, likely: Likely = NOTHING_SAID) -> Fitting:
     """The fitting of an image: by statistics measured anew where most caps are new, else by known ones."""
-    return Fitting(image, None if len(lacking) > MOSTLY_NEW * len(visible) else known_statistics(image))
+    mostly_new = len(lacking) > MOSTLY_NEW * len(visible)
+    return Fitting(image, None if mostly_new else known_statistics(image), likely)
 
 
 def _fits(fitting: Fitting, visible: Mapping[Key, Outline], wanted: Sequence[Key]) -> dict[Key, Fit]:

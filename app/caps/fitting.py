@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from threading import Lock
@@ -16,11 +16,26 @@ from fairyring.model.contour.result import Reconstruction
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
 from fairyring.model.contour.statistics import Statistics, usual_statistics
 from fairyring.model.geometry.boxes import Box, box_of_outline
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Fit
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
 """How many former outlines are remembered: a drag makes many, and may go back."""
+
+Likely = Mapping[tuple[tuple[float, ...], ...], LikelyEllipse]
+"""The whole ellipse that a network said of an outline it drew, by the points of its parts. It holds for this
+very outline: where a person has moved the rim, the network was wrong."""
+NOTHING_SAID: Likely = {}
+
+
+def likely_by_outline(said: Iterable[tuple[Outline, LikelyEllipse | None]]) -> Likely:
+    """Of outlines and the whole ellipses that were said of them, as far as any were."""
+    return {_points(outline): whole for outline, whole in said if whole is not None}
+
+
+def _points(outline: Outline) -> tuple[tuple[float, ...], ...]:
+    return tuple(map(tuple, outline))
 
 
 @dataclass(slots=True)
@@ -39,8 +54,9 @@ class Fitting:
     Outlines are never changed in place: the same list is the same outline. Several threads may ask.
     """
 
-    def __init__(self, image: Image, statistics: Statistics | None) -> None:
+    def __init__(self, image: Image, statistics: Statistics | None, likely: Likely = NOTHING_SAID) -> None:
         """Fits by these statistics; None measures them on the outlines that are first visible."""
+        self.likely = likely
         self._image = image
         self._outlines: dict[int, _Known] = {}
         self._measured = statistics is not None
@@ -83,13 +99,16 @@ class Fitting:
     def _seen(self, known: _Known) -> Silhouette:
         if known.silhouette is None:
             width, height = self._image.width, self._image.height
-            known.silhouette = silhouette_of_outline(known.outline, width=width, height=height)
+            likely = self.likely.get(_points(known.outline)) if self.likely else None
+            known.silhouette = silhouette_of_outline(known.outline, width=width, height=height, likely=likely)
         return known.silhouette
 
 
-def fitted_anew(image: Image, outlines: Sequence[Outline]) -> tuple[list[Fit], dict[str, float]]:
+def fitted_anew(
+    image: Image, outlines: Sequence[Outline], likely: Likely = NOTHING_SAID
+) -> tuple[list[Fit], dict[str, float]]:
     """The whole outlines of all caps of an image, by statistics measured on them, and those statistics."""
-    fitting = Fitting(image, None)
+    fitting = Fitting(image, None, likely)
     found = fitting.reconstructions(outlines, visible=outlines)
     return [each.fit for each in found], fitting.statistics
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from fairyring.app.caps.fitting import Fitting, known_statistics
+from fairyring.app.caps.fitting import Fitting, known_statistics, likely_by_outline
 from fairyring.model.geometry.outline_checks import check_outline
 from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Outline, Prediction
 
@@ -60,7 +60,8 @@ class ImageCaps:
 def caps_of(contents: ImageContents) -> ImageCaps:
     """The caps of an image as the store has them."""
     annotations = {annotation.uid: annotation for annotation in contents.annotations}
-    fitting = Fitting(contents.image, known_statistics(contents.image))
+    likely = likely_by_outline(contents.likely)
+    fitting = Fitting(contents.image, known_statistics(contents.image), likely)
     return ImageCaps(contents.image, annotations, contents.predictions, fitting)
 
 

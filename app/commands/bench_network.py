@@ -151,16 +151,12 @@ def wholes(
     beds: Beds = None,
     count: Count = None,
     real: Real = None,
-    widened: Annotated[
-        list[float] | None,
-        typer.Option(min=0.01, help="Factor on the network's standard deviations (repeat for more)."),
-    ] = None,
     device: OnDevice = Device.auto,
     as_json: AsJson = False,
 ) -> None:
     """Centres of hidden caps by the rim, by the network's ellipses, and by both, by share in sight.
 
-    Example: `fairyring bench network wholes --real photos --count 6 --widened 1 --widened 2`
+    Example: `fairyring bench network wholes --real photos --count 6`
     """
     from fairyring.app.bench.network.wholes import whole_rows
     from fairyring.app.jobs.predicting import network_of
@@ -170,7 +166,7 @@ def wholes(
     rows: list[dict[str, Any]] = []
     with folder_for_beds(beds) as folder, shown_on_stderr() as progress:
         for photos in labelled_sets(folder, count, real, progress):
-            rows += whole_rows(predictor, photos, widened=widened or (1.0,), progress=progress)
+            rows += whole_rows(predictor, photos, progress=progress)
     print_rows("wholes", rows, as_json=as_json)
 
 

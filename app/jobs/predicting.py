@@ -16,13 +16,14 @@ import torch
 from sqlalchemy import Connection
 
 from fairyring.app.caps.filling_in import fill_in, one_by_one
-from fairyring.app.caps.fitting import fitted_anew
+from fairyring.app.caps.fitting import fitted_anew, likely_by_outline
 from fairyring.app.jobs.pace import note_pace
 from fairyring.app.workers.crew import Run, here
 from fairyring.model import photo
 from fairyring.model.colour.methods import Method, find_caps
 from fairyring.model.device import device_of
 from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.outline_checks import usable_outline
 from fairyring.model.geometry.shapes import Fit, Outline
 from fairyring.model.network.config import SIZES, NetworkConfig
@@ -81,6 +82,8 @@ class SeenCap:
     """Visible outline."""
     quality: float | None = None
     """Expected IoU of the outline with the visible cap; None where it is not known."""
+    whole: LikelyEllipse | None = None
+    """The whole outline as the network sees it; None where it does not say."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,7 +129,10 @@ class Network:
     def find(self, photo: Pixels) -> list[SeenCap]:
         """Every cap."""
         found = detect_at_its_scale(self.predictor, photo, diameter=self.diameter)
-        return [SeenCap(score=each.score, outline=each.outline, quality=each.quality) for each in found]
+        return [
+            SeenCap(score=each.score, outline=each.outline, quality=each.quality, whole=each.whole)
+            for each in found
+        ]
 
 
 @dataclass(kw_only=True)
@@ -282,7 +288,8 @@ def predictions_in(
         for seen in finder.find(rgb)
         if (outline := usable_outline(seen.outline, width=image.width, height=image.height))
     ]
-    fits, statistics = compute(fitted_anew, image, [seen.outline for seen in found])
+    likely = likely_by_outline((seen.outline, seen.whole) for seen in found)
+    fits, statistics = compute(fitted_anew, image, [seen.outline for seen in found], likely)
     new = [_prediction(nth, seen, fit) for nth, (seen, fit) in enumerate(zip(found, fits, strict=True))]
     return new, statistics
 
@@ -295,6 +302,7 @@ def _prediction(nth: int, seen: SeenCap, fit: Fit) -> NewPrediction:
         visible=seen.outline,
         score=min(max(seen.score, 0.0), 1.0),
         quality=seen.quality,
+        likely_whole=seen.whole,
         fit=fit,
         extra={"center_sd": [round(sd, 4) for sd in spread]} if spread else {},
     )

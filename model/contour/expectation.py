@@ -33,6 +33,10 @@ FAR_BEYOND = 0.3
 """… and from where on the corner counts less."""
 
 
+SHARED_ERROR = 1.5
+"""Factor on the standard deviations of a likely ellipse: who said it drew the rim, too, and errs in both."""
+
+
 @dataclass(frozen=True, slots=True)
 class Expected:
     """Where n caps are expected to lie before their rims are looked at."""
@@ -49,7 +53,7 @@ def expected_of(likely: Sequence[LikelyEllipse | None]) -> Expected:
     for nth, one in enumerate(likely):
         if one is not None:
             mean[nth] = one.parameters
-            precision[nth] = np.linalg.inv(np.array(one.covariance))
+            precision[nth] = np.linalg.inv(np.array(one.covariance) * SHARED_ERROR**2)
     return Expected(mean, precision)
 
 

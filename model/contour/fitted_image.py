@@ -6,15 +6,14 @@ with these outlines and these statistics gives, in whatever order they come.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from threading import RLock
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.contour.batch import first_caps, joined, single_caps
-from fairyring.model.contour.expectation import Expected, expected_of
+from fairyring.model.contour.expectation import expected_of
 from fairyring.model.contour.guarded import reconstructions_of
 from fairyring.model.contour.layout import NEAR, Layout, changed_layout, empty_layout
 from fairyring.model.contour.order import meetings_of, overlap_order
@@ -31,7 +30,6 @@ from fairyring.model.contour.together import (
     next_look,
 )
 from fairyring.model.geometry.boxes import touching
-from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 
 
 class FittedImage:
@@ -46,10 +44,8 @@ class FittedImage:
         layout: Layout,
         priors: Priors,
         statistics: Statistics | None = None,
-        likely: Mapping[Silhouette, LikelyEllipse] = MappingProxyType({}),
     ) -> None:
         self._layout = layout
-        self._likely = likely
         self._priors = priors
         self._statistics = statistics
         self._looks: list[dict[Silhouette, Look]] = [{} for _ in range(LOOKS)]
@@ -106,19 +102,17 @@ class FittedImage:
         if not missing:
             return
         if nth == 0:
-            look = first_look(*self._layout.batch(missing), self._expected(missing), self._priors)
+            expected = expected_of([cap.likely for cap in missing])
+            look = first_look(*self._layout.batch(missing), expected, self._priors)
         else:
             around = [*missing, *self._neighbours(missing)]
             self._take_look(nth - 1, around)
             before = joined([self._looks[nth - 1][cap] for cap in around])
             statistics = self.statistics if nth == LOOKS - 1 else usual_statistics(self._priors)
             rims, contact = self._layout.batch(around)
-            expected = self._expected(missing)
+            expected = expected_of([cap.likely for cap in missing])
             look = next_look(rims, contact, before, statistics, self._priors, expected=expected)
         looks.update(zip(missing, single_caps(look, caps=len(missing)), strict=True))
-
-    def _expected(self, caps: Sequence[Silhouette]) -> Expected:
-        return expected_of([self._likely.get(cap) for cap in caps])
 
     def _measured(self) -> Statistics:
         """By what the last look but one says of all caps."""
@@ -136,7 +130,7 @@ class FittedImage:
     def _changed(self, *, added: Sequence[Silhouette], removed: set[Silhouette]) -> FittedImage:
         layout, differ = changed_layout(self._layout, added=added, removed=removed)
         statistics = self.statistics if self._layout.caps else self._statistics
-        image = FittedImage(layout, self._priors, statistics, self._likely)
+        image = FittedImage(layout, self._priors, statistics)
         if not self._looks[0]:
             return image
         stale = differ | removed
@@ -172,10 +166,6 @@ def fitted_image(
     height: int,
     priors: Priors = DEFAULT,
     statistics: Statistics | None = None,
-    likely: Mapping[Silhouette, LikelyEllipse] = MappingProxyType({}),
 ) -> FittedImage:
-    """Of an image of this size with these caps. Its ``statistics`` are measured where none are given.
-
-    ``likely``: whole ellipses that are held to be likely before rims are looked at, of some of the caps.
-    """
-    return FittedImage(empty_layout(width=width, height=height), priors, statistics, likely).with_caps(caps)
+    """Of an image of this size with these caps. Its ``statistics`` are measured where none are given."""
+    return FittedImage(empty_layout(width=width, height=height), priors, statistics).with_caps(caps)

@@ -16,6 +16,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.raster import mask_of_outline
 from fairyring.model.geometry.shapes import Outline, Points, centres_of_pixels, part_of_points, points_of_part
 
@@ -30,12 +31,14 @@ Along an edge whose normal is (nx, ny) their distance to it is spread evenly ove
 class Silhouette:
     """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``.
 
-    Two of the same pixels are equal. A mask is never changed in place.
+    Two of the same pixels, of which the same is thought, are equal. A mask is never changed in place.
     """
 
     mask: NDArray[np.uint8]
     left: int
     top: int
+    likely: LikelyEllipse | None = None
+    """The whole outline that who drew this one held to be likely."""
 
     @property
     def box(self) -> tuple[int, int, int, int]:
@@ -49,9 +52,9 @@ class Silhouette:
         return int(self.mask.sum())
 
     @cached_property
-    def content(self) -> tuple[tuple[int, int, int, int], bytes]:
-        """The box and a digest of the mask, which tell silhouettes apart."""
-        return self.box, blake2b(self.mask.tobytes(), digest_size=16).digest()
+    def content(self) -> tuple[tuple[int, int, int, int], bytes, LikelyEllipse | None]:
+        """The box, a digest of the mask, and what is likely, which tell silhouettes apart."""
+        return self.box, blake2b(self.mask.tobytes(), digest_size=16).digest(), self.likely
 
     def __eq__(self, other: object) -> bool:
         return self is other or (isinstance(other, Silhouette) and self.content == other.content)
@@ -67,10 +70,13 @@ class Silhouette:
 NOTHING = Silhouette(np.zeros((0, 0), np.uint8), 0, 0)
 
 
-def silhouette_of_outline(outline: Outline, *, width: int, height: int) -> Silhouette:
+def silhouette_of_outline(
+    outline: Outline, *, width: int, height: int, likely: LikelyEllipse | None = None
+) -> Silhouette:
     """The pixels of an image of this size that an outline covers; what lies outside the image is cut off.
 
     Parts of fewer than three points cover nothing, nor does an outline with a coordinate that is not finite.
+    ``likely``: the whole outline, as who drew this one sees it.
     """
     parts = [points_of_part(part) for part in outline if len(part) >= 6]
     if not parts or not all(np.isfinite(part).all() for part in parts):
@@ -84,7 +90,7 @@ def silhouette_of_outline(outline: Outline, *, width: int, height: int) -> Silho
     if right <= left or bottom <= top:
         return NOTHING
     local = [part_of_points(part - (left, top)) for part in parts]
-    return Silhouette(mask_of_outline(local, height=bottom - top, width=right - left), left, top)
+    return Silhouette(mask_of_outline(local, height=bottom - top, width=right - left), left, top, likely)
 
 
 def contours_of(silhouette: Silhouette, *, least: float = 0) -> list[Points]:

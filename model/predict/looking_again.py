@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -144,18 +145,13 @@ def _opinions(network: PRSOLOv2, said: Said, places: NDArray[np.float32]) -> Ite
     means = said.mean.double().cpu().numpy()
     covariances = look.calibrated_covariance(said).double().cpu().numpy()
     for quality, mean, covariance, (x, y, half) in zip(
-        qualities, means, covariances, places.astype(np.float64).tolist(), strict=True
+        qualities, means.tolist(), covariances, places.astype(np.float64).tolist(), strict=True
     ):
+        dx, dy, log_r, u, v = mean
         # The centre is known in half windows, and its spread wanted in radii.
-        to_radii = np.array([np.exp(-mean[2])] * 2 + [1.0, 1.0, 1.0])
+        to_radii = np.array([math.exp(-log_r)] * 2 + [1.0, 1.0, 1.0])
         whole = LikelyEllipse(
-            parameters=(
-                x + half * mean[0],
-                y + half * mean[1],
-                mean[2] + float(np.log(half / 2)),
-                mean[3],
-                mean[4],
-            ),
+            parameters=(x + half * dx, y + half * dy, log_r + math.log(half / 2), u, v),
             covariance=tuple(map(tuple, (covariance * to_radii * to_radii[:, None]).tolist())),
         )
         yield Opinion(quality=quality, whole=whole)

@@ -11,6 +11,7 @@ from typing import Any
 
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.storage.db.columns import Flag, Json, Real
 from fairyring.storage.records import Cap, Mark, Outline, Rules, SamplingPlan, Shape
 
@@ -101,6 +102,7 @@ prediction = Table(
     Column("visible", Json(Outline), nullable=False),
     Column("score", Real, nullable=False),
     Column("quality", Real),
+    Column("likely_whole", Json(LikelyEllipse)),
     Column("whole", Json(Shape)),
     Column("centre_x", Real),
     Column("centre_y", Real),

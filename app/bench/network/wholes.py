@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -38,11 +38,8 @@ class _Cap:
     """Of the centre, in standard deviations (root of the mean of x² and y²), likewise."""
 
 
-def whole_rows(
-    predictor: Predictor, photos: LabelledPhotos, *, widened: Sequence[float], progress: Progress
-) -> list[dict[str, Any]]:
-    """CDR by share in sight and by way; the same caps in every way. ``widened``: factors on the network's
-    standard deviations where both are put together."""
+def whole_rows(predictor: Predictor, photos: LabelledPhotos, *, progress: Progress) -> list[dict[str, Any]]:
+    """CDR by share in sight and by way; the same caps in every way."""
     caps: list[_Cap] = []
     for done, (entry, pixels) in enumerate(photos.images()):
         progress(done, len(photos.photos), f"predicting {entry['file_name']}")
@@ -51,12 +48,12 @@ def whole_rows(
         likely = [one.whole for one in found if one.whole is not None]
         if len(likely) < len(found) or not found:
             continue
-        shown = [silhouette_of_outline(one.outline, **size) for one in found]
-        ways = {"rim": _fitted(shown, {}, **size)}
-        ways["network"] = [(one.parameters[:2], _sd_of(one)) for one in likely]
-        for by in widened:
-            expected = {cap: _widened(one, by) for cap, one in zip(shown, likely, strict=True)}
-            ways[f"both, × {by:g}"] = _fitted(shown, expected, **size)
+        alone = [silhouette_of_outline(one.outline, **size) for one in found]
+        ways = {
+            "rim": _fitted(alone, **size),
+            "network": [(one.parameters[:2], _sd_of(one)) for one in likely],
+            "both": _fitted([replace(cap, likely=it) for cap, it in zip(alone, likely, strict=True)], **size),
+        }
         truths = [
             cap
             for cap in photos.document["annotations"]
@@ -82,10 +79,8 @@ Said = tuple[Centre, tuple[float, float]]
 """A centre, and its standard deviation along x and y."""
 
 
-def _fitted(
-    shown: Sequence[Silhouette], likely: Mapping[Silhouette, LikelyEllipse], *, width: int, height: int
-) -> list[Said]:
-    image = fitted_image(shown, width=width, height=height, likely=likely)
+def _fitted(shown: Sequence[Silhouette], *, width: int, height: int) -> list[Said]:
+    image = fitted_image(shown, width=width, height=height)
     fits = [one.fit for one in image.reconstructions(shown)]
     return [(fit.centre or (np.nan, np.nan), fit.centre_sd or (np.nan, np.nan)) for fit in fits]
 
@@ -93,11 +88,6 @@ def _fitted(
 def _sd_of(likely: LikelyEllipse) -> tuple[float, float]:
     radius = float(np.exp(likely.parameters[2]))
     return radius * likely.covariance[0][0] ** 0.5, radius * likely.covariance[1][1] ** 0.5
-
-
-def _widened(likely: LikelyEllipse, by: float) -> LikelyEllipse:
-    covariance = (np.array(likely.covariance) * by**2).tolist()
-    return LikelyEllipse(parameters=likely.parameters, covariance=tuple(map(tuple, covariance)))
 
 
 def _compared(

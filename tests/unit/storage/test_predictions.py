@@ -3,6 +3,7 @@ import math
 import pytest
 
 from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Circle, Fit, fit_of_shape
 from fairyring.storage.contents import (
     load_contents,
@@ -211,3 +212,32 @@ def test_a_cap_without_a_whole_outline_keeps_the_reason(beds, square):
         return underived_of(connection, 1).predictions
 
     assert beds.write(work) == {}, "nobody needs to try again"
+
+
+def test_what_a_model_held_to_be_likely_is_kept_for_caps_that_are_shown_or_became_annotations(beds, square):
+    said = LikelyEllipse(
+        parameters=(20.0, 21.0, 2.5, 0.1, 0.0),
+        covariance=tuple(tuple(0.5 if i == k else 0.0 for i in range(5)) for k in range(5)),
+    )
+
+    def work(connection):
+        for name, uids in (("old", ("a", "b")), ("new", ("c", "d"))):
+            run = add_run(connection, name=name, kind="network")
+            new = [
+                NewPrediction(visible=square, score=0.9, uid=uid, likely_whole=None if uid == "d" else said)
+                for uid in uids
+            ]
+            add_predictions(connection, run_id=run.id, image_id=1, predictions=new)
+            if name == "old":
+                accepted = load_predictions(connection, 1)[0]
+        return accepted
+
+    accepted = beds.write(work)
+    with beds.read() as connection:
+        assert load_contents(connection, 1).likely == [(square, said)]
+    cap = Cap(visible=accepted.visible, prediction=accepted.id)
+    commit(
+        beds, [Derived(edit=Edit(id="e", annotation="cap", image=1, base=0, cap=cap), fit=Fit())], user="ann"
+    )
+    with beds.read() as connection:
+        assert load_contents(connection, 1).likely == [(square, said)] * 2

@@ -15,6 +15,8 @@ import pytest
 from click.testing import Result
 from typer.testing import CliRunner
 
+from fairyring.app.caps.image_caps import caps_of
+from fairyring.app.caps.whole_outlines import derive_edits
 from fairyring.app.cli import app
 from fairyring.app.jobs.predicting import Network, network_of, predict_images
 from fairyring.app.protocol import Cancel, Edits, JobProgress, Notice, Predicted, Select, Show
@@ -24,6 +26,7 @@ from fairyring.model.predict.predictor import Predictor
 from fairyring.storage.contents import load_annotations, load_contents, load_predictions
 from fairyring.storage.images import ImageFilter, list_ids
 from fairyring.storage.project import Project
+from fairyring.storage.records import Cap, Edit
 from tests.support.sighted import write_weights
 from tests.support.stored import stored_runs
 from tests.support.tab import Tab, new_cap, until
@@ -83,6 +86,22 @@ def test_predict_stores_outlines_scores_and_centres_with_the_weights_that_said_s
     assert told
     assert all(p.centre == (p.whole.cx, p.whole.cy) for p in told if p.whole)
     assert all(min(p.extra["center_sd"]) > 0 for p in told if "center_sd" in p.extra)
+
+
+def test_a_cap_that_is_accepted_as_it_is_keeps_the_centre_that_was_predicted(
+    project: Project, ids: list[int], tmp_path: Path
+) -> None:
+    write_weights(tmp_path / "looks_again.safetensors", second_look=16)
+    predict_images(project, network_of(tmp_path / "looks_again.safetensors", device="cpu"), ids[:1])
+    with project.read() as connection:
+        contents = load_contents(connection, ids[0])
+    assert len(contents.likely) == len(contents.predictions) > 0
+    every = caps_of(contents)
+    for said in contents.predictions:
+        cap = Cap(visible=said.visible, prediction=said.id)
+        edit = Edit(id=f"e{said.id}", annotation=f"a{said.id}", image=ids[0], base=0, cap=cap)
+        (derived,) = derive_edits(project, [edit], known=every)
+        assert (derived.fit.centre or (0, 0)) == pytest.approx(said.centre or (0, 0), abs=1e-6)
 
 
 def test_a_run_that_was_stopped_goes_on_where_it_was(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fairyring.model.contour import harmonic
-from fairyring.model.contour.expectation import Expected, expected_of
+from fairyring.model.contour.expectation import SHARED_ERROR, Expected, expected_of
 from fairyring.model.contour.harmonic import Evidence, Outlines, fit_outlines
 from fairyring.model.contour.priors import DEFAULT
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
@@ -81,13 +81,15 @@ def test_what_is_expected_hardly_moves_a_rim_that_is_all_in_sight():
 
 
 def test_expectation_and_rim_meet_at_the_mean_weighted_by_their_precisions():
-    """With a rim that knows x to a standard deviation s, an expectation as sure moves it half of the way."""
+    """A rim that knows x to a standard deviation s, and an expectation that counts as sure, share the way."""
     rim = points_on_ellipse(Ellipse(cx=300, cy=200, a=40, b=40, theta_deg=0), ANGLES)
     alone = fitted(evidence(rim), circle(300, 200, 40))
     sd = float(np.sqrt(alone.covariance[0, 0, 0]))
     told = replace(
         evidence(rim),
-        expected=said_to_be((300 + 40 * 0.002, 200, np.log(40), 0, 0), [sd, 1e3, 1e3, 1e3, 1e3]),
+        expected=said_to_be(
+            (300 + 40 * 0.002, 200, np.log(40), 0, 0), [sd / SHARED_ERROR, 1e3, 1e3, 1e3, 1e3]
+        ),
     )
     assert fitted(told, circle(300, 200, 40)).outlines.centre[0, 0] == pytest.approx(300.04, abs=0.002)
 
