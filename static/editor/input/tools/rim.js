@@ -9,9 +9,9 @@
 
 import { boundsOfPoints, grown } from "../../geometry/bounds.js";
 import { leftOf, snapped } from "../../geometry/borders.js";
-import { without } from "../../geometry/regions.js";
+import { areaOf, without } from "../../geometry/regions.js";
 import { redrawnCap } from "../../geometry/rims.js";
-import { withCap } from "../../geometry/shapes.js";
+import { isPrediction, withCap } from "../../geometry/shapes.js";
 import { changed } from "../../state/changes.js";
 import { StrokeTool, meantBy } from "./stroke.js";
 import { STRAYS_PX } from "./tool.js";
@@ -26,6 +26,8 @@ import { STRAYS_PX } from "./tool.js";
 const REACH_PX = 16;
 /** So near to a neighbour's rim it follows that, CSS pixels. */
 const SNAP_PX = 5;
+/** An open prediction that would keep less of itself than this was of the cap that is redrawn, and stays as it was said. */
+const LEAST_LEFT = 0.5;
 
 const ELSEWHERE = "A stroke begins and ends on the rim that it changes.";
 
@@ -65,6 +67,7 @@ function neighboursOf(state, { uid, cap }, stroke) {
 function lossesOf(neighbours, gained) {
   return neighbours.flatMap((shape) => {
     const visible = leftOf(shape.cap.visible, gained);
-    return visible ? [changed(shape, withCap(shape, { ...shape.cap, visible }))] : [];
+    if (!visible || (isPrediction(shape) && areaOf(visible) < LEAST_LEFT * areaOf(shape.cap.visible))) return [];
+    return [changed(shape, withCap(shape, { ...shape.cap, visible }))];
   });
 }

@@ -147,6 +147,19 @@ test("what a stroke adds beyond a neighbour's rim the neighbour loses, in the sa
   assert.ok(areaOf(shared(now("round"), now("next"))) < 2);
 });
 
+test("an open prediction that would keep but a shred stays one; of another the rest becomes a cap", () => {
+  const within = [385, 285, 420, 285, 420, 315, 385, 315];
+  const { state, committed } = openState({
+    shapes: [storedShape("round", capOf(ROUND))],
+    predictions: [prediction(7, [within]), prediction(8, [NEXT])],
+  });
+  handOf(state, rimTool(state, () => {})).stroke(bulge(415));
+  assert.deepEqual(
+    committed[0].map(({ after }) => after.cap.prediction),
+    [null, 8],
+  );
+});
+
 test("a stroke along a neighbour's rim takes nothing of it and leaves no gap", () => {
   const { committed, hand, now } = besideANeighbour();
   const rim = Array.from({ length: 9 }, (_, i) => {
