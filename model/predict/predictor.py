@@ -194,7 +194,8 @@ class Predictor:
         """The cap at clicks x, y in the photo that was seen; None where the network sees none.
 
         ``labels``: whether a point is to be on it; the first must be. ``front``: outlines of caps of which
-        it may show no pixel; those that hold a point that is to be on it do not count.
+        it may show no pixel; those that hold a point that is to be on it do not count. Where they leave
+        of a cap only what lies beside these points, nobody pointed at it.
         """
         places, wanted = np.array(points, np.float64).reshape(-1, 2), np.array(labels, np.bool_)
         if len(places) != len(wanted) or not wanted[:1].all() or not len(places):
@@ -206,7 +207,10 @@ class Predictor:
             if found is not None and _holds(_smooth_outline(found.window), taken):
                 found = replace(found, window=parted(found.window, places[wanted] * scaling, taken))
         others = [o for o in front if not any(_holds(o, place) for place in places[wanted])]
-        return self._told(seen, found, others)
+        told = self._told(seen, found, others)
+        if told is None or (others and not any(_holds(told.outline, place) for place in places[wanted])):
+            return None
+        return told
 
     @torch.inference_mode()
     def within(self, seen: Seen, box: Box, *, front: Sequence[Outline] = ()) -> Detection | None:

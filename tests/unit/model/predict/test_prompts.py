@@ -121,6 +121,18 @@ def test_a_cap_is_cut_where_others_lie_in_front(bed: Bed) -> None:
     assert whole.outline == getattr(bed.predictor.at(bed.seen, [(x, y)]), "outline", None)
 
 
+def test_what_others_leave_far_from_the_click_is_no_cap(bed: Bed) -> None:
+    cap = max(bed.caps, key=area_of_outline)
+    left, top, right, bottom = box_of_outline(cap)
+    click = (left + 2, bed.middle(cap)[1])
+    alone = bed.predictor.at(bed.seen, [click])
+    assert alone is not None
+    assert bed.iou(cap, alone) > 0.5
+    inner, outer = left + 2.5, right - 10
+    between = [[inner, top - 5, outer, top - 5, outer, bottom + 5, inner, bottom + 5]]
+    assert bed.predictor.at(bed.seen, [click], front=[between]) is None
+
+
 def test_clicks_must_be_labelled_and_begin_on_the_cap(bed: Bed) -> None:
     with pytest.raises(ValueError, match="label"):
         bed.predictor.at(bed.seen, [(10, 10), (20, 20)], [True])
