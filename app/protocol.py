@@ -313,11 +313,14 @@ class Predicted(FromServer, frozen=True, tag="predicted"):
 
 
 class Arc(Struct, frozen=True, kw_only=True):
-    """A piece of a visible outline: own rim, hidden by a neighbour, cut by the image border, or a hollow."""
+    """A piece of a visible outline: own rim, hidden by a neighbour, cut off by the image border or something
+    else, the rim of two caps that touch, or a hollow."""
 
-    kind: Literal["visible", "hidden", "border", "concave"]
+    kind: Literal["visible", "hidden", "border", "contact", "concave"]
     points: list[float]
     """Points along the outline as a flat list x0, y0, x1, y1, …; pixels."""
+    told: bool = False
+    """Whether a person said so."""
 
 
 class Fitted(FromServer, frozen=True, tag="fit"):

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from msgspec import structs
+from msgspec import UNSET, structs
 
 from fairyring.model.geometry.clipping import clipped_outline
 from fairyring.model.geometry.outline_checks import check_mark, check_outline
+from fairyring.model.geometry.told_arcs import check_told_arcs
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Cap
 
@@ -17,7 +18,7 @@ MAX_ORDER = 1_000_000
 
 
 def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], object] | None = None) -> Cap:
-    """The cap with its mark in standard form and its visible outline put right.
+    """The cap with its mark in standard form, its visible outline put right, and what was said of arcs of it.
 
     Where the outline crosses itself it is repaired; it ends where the image does, which a mark need not.
 
@@ -39,7 +40,8 @@ def check_cap(cap: Cap, *, width: int, height: int, left_out: Callable[[str], ob
     mark = None if cap.mark is None else check_mark(cap.mark, width=width, height=height)
     visible = cap.visible and check_outline(cap.visible, width=width, height=height, left_out=left_out)
     inside = visible and clipped_outline(visible, width=width, height=height)
-    return structs.replace(cap, visible=inside, mark=mark)
+    arcs = check_told_arcs(cap.told, inside) if cap.told and inside else []
+    return structs.replace(cap, visible=inside, mark=mark, arcs=arcs or UNSET)
 
 
 def is_name(text: str) -> bool:

@@ -6,13 +6,15 @@ coordinates of the upright image (x right, y down, the centre of pixel i at i + 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Literal, get_args
 
-from msgspec import Struct, field
+from msgspec import UNSET, Struct, UnsetType, field
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon
+from fairyring.model.geometry.told_arcs import ToldArc
 
 Outline = list[list[float]]
 Shape = Circle | Ellipse
@@ -66,6 +68,13 @@ class Cap(Struct, frozen=True, kw_only=True):
     category: str = DEFAULT_CATEGORY
     prediction: int | None = None
     """The prediction this cap started from."""
+    arcs: list[ToldArc] | UnsetType = UNSET
+    """What was said of pieces of the visible outline; left out where nothing was."""
+
+    @property
+    def told(self) -> Sequence[ToldArc]:
+        """What was said of pieces of the visible outline."""
+        return self.arcs or ()
 
 
 class Annotation(Struct, frozen=True, kw_only=True):

@@ -9,9 +9,10 @@ from operator import itemgetter
 from typing import Any
 
 import msgspec
-from msgspec import Struct
+from msgspec import UNSET, Struct
 from sqlalchemy import Connection, Text, exists, select, type_coerce
 
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage.db.columns import Json
 from fairyring.storage.db.rows import AnySelect
 from fairyring.storage.db.schema import annotation, image, prediction, run
@@ -40,6 +41,7 @@ class StoredAnnotation(Struct, frozen=True, array_like=True):
     extra: str
     edited_by: str
     edited_at: str
+    arcs: str | None
     prediction: int | None
     run: str | None
     """Name of the run that made the prediction."""
@@ -110,6 +112,7 @@ def annotation_of_stored(stored: StoredAnnotation, *, image: int) -> Annotation:
         doubtful=stored.doubtful,
         order=stored.overlap,
         prediction=stored.prediction,
+        arcs=UNSET if stored.arcs is None else _ARCS.decode(stored.arcs),
     )
     return Annotation(
         uid=stored.uid,
@@ -152,6 +155,7 @@ def origin_of(stored: StoredAnnotation) -> dict[str, Any]:
 
 _OUTLINE = msgspec.json.Decoder(Outline)
 _MARK = msgspec.json.Decoder(Mark)
+_ARCS = msgspec.json.Decoder(list[ToldArc])
 _SHAPE = msgspec.json.Decoder(Shape)
 _KEYS = msgspec.json.Decoder(dict[str, Any])
 

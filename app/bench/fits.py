@@ -17,7 +17,7 @@ import cv2
 from fairyring.app.bench.crowd import add_crowd
 from fairyring.app.bench.plain import inserted_at_once
 from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
-from fairyring.app.caps.fitting import Fitting, known_statistics
+from fairyring.app.caps.fitting import Fitting, Seen, known_statistics
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.caps.whole_outlines import derive_edits, refit
 from fairyring.app.jobs.predicting import network_of, predict_images
@@ -134,7 +134,8 @@ def _apart(before: Sequence[Prediction], after: Sequence[Fit]) -> float:
 
 
 def _fit_all(image: Image, outlines: Sequence[Outline]) -> None:
-    Fitting(image, known_statistics(image)).reconstructions(outlines, visible=outlines)
+    seen = [Seen(outline) for outline in outlines]
+    Fitting(image, known_statistics(image)).reconstructions(seen, visible=seen)
 
 
 def _fit_plainly(image: Image, outlines: Sequence[Outline]) -> None:
@@ -148,13 +149,13 @@ def _fit_plainly(image: Image, outlines: Sequence[Outline]) -> None:
 
 def _dragged(image: Image, outlines: Sequence[Outline]) -> list[float]:
     """Milliseconds that each of some caps takes, a corner of which is dragged by two pixels."""
-    fitting = Fitting(image, known_statistics(image))
-    fitting.reconstructions(outlines, visible=outlines)
+    fitting, seen = Fitting(image, known_statistics(image)), [Seen(outline) for outline in outlines]
+    fitting.reconstructions(seen, visible=seen)
 
     def drag(index: int) -> None:
         first, *others = outlines[index]
-        moved = [[first[0] + 2.0, *first[1:]], *others]
-        fitting.reconstructions([moved], visible=[*outlines[:index], moved, *outlines[index + 1 :]])
+        moved = Seen([[first[0] + 2.0, *first[1:]], *others])
+        fitting.reconstructions([moved], visible=[*seen[:index], moved, *seen[index + 1 :]])
 
     step = max(1, len(outlines) // DRAGGED)
     return milliseconds(drag, range(0, len(outlines), step))

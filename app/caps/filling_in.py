@@ -14,7 +14,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 from sqlalchemy import Connection
 
-from fairyring.app.caps.fitting import NOTHING_SAID, Fitting, Likely, known_statistics
+from fairyring.app.caps.fitting import NOTHING_SAID, Fitting, Likely, Seen, known_statistics
 from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.workers.crew import Run
 from fairyring.model.contour.marks import reconstruction_of_mark
@@ -26,7 +26,7 @@ from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import keep_statistics
 from fairyring.storage.project import Project
-from fairyring.storage.records import Image, ImageContents, Outline, Prediction
+from fairyring.storage.records import Image, ImageContents, Prediction
 from fairyring.storage.runs import predictions_by
 
 Key = TypeVar("Key")
@@ -136,7 +136,7 @@ def _missing(task: _Lacking) -> _Found:
     predictions: dict[int, Fit] = {}
     for run, wanted in lacking.predictions.items():
         # What a run says is fitted by itself: what people correct is not the run's doing.
-        said = {prediction.id: prediction.visible for prediction in task.said[run]}
+        said = {prediction.id: Seen(prediction.visible) for prediction in task.said[run]}
         of_run = _fitting(contents.image, wanted, said)
         predictions |= _fits(of_run, said, wanted)
         if contents.run is not None and run == contents.run.id:
@@ -163,7 +163,7 @@ def _fitting(image: Image, lacking: Sized, visible: Sized, likely: Likely = NOTH
     return Fitting(image, None if mostly_new else known_statistics(image), likely)
 
 
-def _fits(fitting: Fitting, visible: Mapping[Key, Outline], wanted: Sequence[Key]) -> dict[Key, Fit]:
+def _fits(fitting: Fitting, visible: Mapping[Key, Seen], wanted: Sequence[Key]) -> dict[Key, Fit]:
     if not wanted:
         return {}
     found = fitting.reconstructions([visible[key] for key in wanted], visible=visible.values())

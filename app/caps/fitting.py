@@ -18,6 +18,7 @@ from fairyring.model.contour.statistics import Statistics, usual_statistics
 from fairyring.model.geometry.boxes import Box, box_of_outline
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Fit
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage.records import Image, Outline
 
 MOST_SPARE = 200
@@ -38,11 +39,24 @@ def _points(outline: Outline) -> tuple[tuple[float, ...], ...]:
     return tuple(map(tuple, outline))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Seen:
+    """What is visible of a cap, and what people said of pieces of that."""
+
+    outline: Outline
+    told: Sequence[ToldArc] = ()
+
+    @property
+    def key(self) -> tuple[int, int]:
+        """Tells it apart from others; the same lists are the same."""
+        return id(self.outline), id(self.told)
+
+
 @dataclass(slots=True)
 class _Known:
     """What is remembered of an outline."""
 
-    outline: Outline
+    seen: Seen
     box: Box
     silhouette: Silhouette | None = None
     """None until it is first needed."""
@@ -51,14 +65,15 @@ class _Known:
 class Fitting:
     """Reconstructs the caps of one image, and remembers what the next question will need again.
 
-    Outlines are never changed in place: the same list is the same outline. Several threads may ask.
+    Outlines, and what was said of them, are never changed in place: the same list is the same. Several
+    threads may ask.
     """
 
     def __init__(self, image: Image, statistics: Statistics | None, likely: Likely = NOTHING_SAID) -> None:
         """Fits by these statistics; None measures them on the outlines that are first visible."""
         self.likely = likely
         self._image = image
-        self._outlines: dict[int, _Known] = {}
+        self._outlines: dict[tuple[int, int], _Known] = {}
         self._measured = statistics is not None
         self._latest = fitted_image([], width=image.width, height=image.height, statistics=statistics)
         self._lock = Lock()
@@ -68,39 +83,37 @@ class Fitting:
         """The statistics it fits by, to be kept as ``image.statistics``."""
         return asdict(self._latest.statistics)
 
-    def reconstructions(
-        self, wanted: Sequence[Outline], *, visible: Collection[Outline]
-    ) -> list[Reconstruction]:
+    def reconstructions(self, wanted: Sequence[Seen], *, visible: Collection[Seen]) -> list[Reconstruction]:
         """Reconstructs some outlines among all those ``visible`` in the image; all were checked before."""
         with self._lock:
-            known = [self._known(outline) for outline in visible]
+            known = [self._known(seen) for seen in visible]
             near = self._near(wanted, known) if self._measured else [True] * len(known)
             # What was near once stays: it costs nothing, and may be near again.
             shown = [each for each, is_near in zip(known, near, strict=True) if is_near or each.silhouette]
-            self._latest = self._latest.with_caps([self._seen(each) for each in shown])
+            self._latest = self._latest.with_caps([self._silhouette(each) for each in shown])
             self._measured = True
-            found = self._latest.reconstructions([self._seen(self._known(outline)) for outline in wanted])
+            found = self._latest.reconstructions([self._silhouette(self._known(seen)) for seen in wanted])
             if len(self._outlines) > len(known) + MOST_SPARE:
-                self._outlines = {id(each.outline): each for each in known}
+                self._outlines = {each.seen.key: each for each in known}
             return found
 
-    def _near(self, wanted: Sequence[Outline], known: Sequence[_Known]) -> list[bool]:
-        ids = {id(outline) for outline in wanted}
-        is_wanted = np.array([id(each.outline) in ids for each in known], np.bool_)
+    def _near(self, wanted: Sequence[Seen], known: Sequence[_Known]) -> list[bool]:
+        keys = {seen.key for seen in wanted}
+        is_wanted = np.array([each.seen.key in keys for each in known], np.bool_)
         boxes = np.array([each.box for each in known], np.float64).reshape(-1, 4)
         return within_reach(boxes, is_wanted).tolist()
 
-    def _known(self, outline: Outline) -> _Known:
-        known = self._outlines.get(id(outline))
+    def _known(self, seen: Seen) -> _Known:
+        known = self._outlines.get(seen.key)
         if known is None:
-            known = self._outlines[id(outline)] = _Known(outline, box_of_outline(outline))
+            known = self._outlines[seen.key] = _Known(seen, box_of_outline(seen.outline))
         return known
 
-    def _seen(self, known: _Known) -> Silhouette:
+    def _silhouette(self, known: _Known) -> Silhouette:
         if known.silhouette is None:
-            width, height = self._image.width, self._image.height
-            likely = self.likely.get(_points(known.outline)) if self.likely else None
-            known.silhouette = silhouette_of_outline(known.outline, width=width, height=height, likely=likely)
+            seen, size = known.seen, {"width": self._image.width, "height": self._image.height}
+            likely = self.likely.get(_points(seen.outline)) if self.likely else None
+            known.silhouette = silhouette_of_outline(seen.outline, likely=likely, told=seen.told, **size)
         return known.silhouette
 
 
@@ -108,8 +121,8 @@ def fitted_anew(
     image: Image, outlines: Sequence[Outline], likely: Likely = NOTHING_SAID
 ) -> tuple[list[Fit], dict[str, float]]:
     """The whole outlines of all caps of an image, by statistics measured on them, and those statistics."""
-    fitting = Fitting(image, None, likely)
-    found = fitting.reconstructions(outlines, visible=outlines)
+    fitting, seen = Fitting(image, None, likely), [Seen(outline) for outline in outlines]
+    found = fitting.reconstructions(seen, visible=seen)
     return [each.fit for each in found], fitting.statistics
 
 

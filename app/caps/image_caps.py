@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from fairyring.app.caps.fitting import Fitting, known_statistics, likely_by_outline
+from fairyring.app.caps.fitting import Fitting, Seen, known_statistics, likely_by_outline
 from fairyring.model.geometry.outline_checks import check_outline
+from fairyring.model.geometry.told_arcs import ToldArc, check_told_arcs
 from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Outline, Prediction
 
 
@@ -23,19 +24,19 @@ class ImageCaps:
     """Shared by all successive states of an image's caps."""
 
     @cached_property
-    def visible(self) -> dict[str, Outline]:
+    def visible(self) -> dict[str, Seen]:
         """What is visible of every cap: the live annotations, and the predictions nobody has touched.
 
         So a prediction that is accepted as it is changes nothing that is visible.
         """
         touched = {annotation.cap.prediction for annotation in self.annotations.values()}
-        live = {uid: a.cap.visible for uid, a in self.annotations.items() if not a.deleted}
-        return live | {key_of(p.id): p.visible for p in self.predictions if p.id not in touched}
+        live = {uid: Seen(a.cap.visible, a.cap.told) for uid, a in self.annotations.items() if not a.deleted}
+        return live | {key_of(p.id): Seen(p.visible) for p in self.predictions if p.id not in touched}
 
-    def visible_beside(self, uid: str, *, prediction: int | None) -> list[Outline]:
+    def visible_beside(self, uid: str, *, prediction: int | None) -> list[Seen]:
         """What is visible of all caps but this one and the prediction it started from."""
         own = (uid, key_of(prediction))
-        return [outline for key, outline in self.visible.items() if key not in own]
+        return [seen for key, seen in self.visible.items() if key not in own]
 
     @cached_property
     def _prediction(self) -> dict[int, Prediction]:
@@ -51,6 +52,16 @@ class ImageCaps:
             if known and known == cap.visible:
                 return known
         return check_outline(cap.visible, width=self.image.width, height=self.image.height)
+
+    def checked_arcs(self, uid: str, cap: Cap, outline: Outline) -> Sequence[ToldArc]:
+        """What is said of pieces of a checked outline: the very list known already where it is the same.
+
+        Raises GeometryError.
+        """
+        before = self.annotations.get(uid)
+        if before is not None and before.cap.told == cap.told and before.cap.visible == outline:
+            return before.cap.told
+        return check_told_arcs(cap.told, outline) if cap.told else ()
 
     def with_annotations(self, annotations: Mapping[str, Annotation]) -> ImageCaps:
         """The same image with other annotations."""

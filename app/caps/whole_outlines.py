@@ -14,6 +14,7 @@ from typing import Literal
 import msgspec
 
 from fairyring.app.caps.filling_in import fill_in
+from fairyring.app.caps.fitting import Seen
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import Arc, Fitted, Refit
 from fairyring.model.contour.marks import reconstruction_of_mark
@@ -26,7 +27,7 @@ from fairyring.storage.contents import load_contents
 from fairyring.storage.errors import StoreError
 from fairyring.storage.journal import Derived
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Cap, Edit, Image, Outline
+from fairyring.storage.records import Annotation, Cap, Edit, Image
 
 TELLING = 0.005
 """A stored centre that a new fit would move by less than this, pixels, is as good as new."""
@@ -44,11 +45,12 @@ def reconstruction_of(uid: str, cap: Cap, caps: ImageCaps) -> Reconstruction:
                 check_mark(cap.mark, width=caps.image.width, height=caps.image.height)
             )
         outline = caps.checked_outline(uid, cap)
+        seen = Seen(outline, caps.checked_arcs(uid, cap, outline))
     except GeometryError as error:
         return Reconstruction(fit=Fit(refusal=str(error)))
-    visible = [*caps.visible_beside(uid, prediction=cap.prediction), outline]
-    (found,) = caps.fitting.reconstructions([outline], visible=visible)
-    stored = _stored(uid, outline, caps)
+    visible = [*caps.visible_beside(uid, prediction=cap.prediction), seen]
+    (found,) = caps.fitting.reconstructions([seen], visible=visible)
+    stored = _stored(uid, seen, caps)
     return found if stored is None else _as_stored(found, stored)
 
 
@@ -59,21 +61,23 @@ def refit(caps: ImageCaps, request: Refit) -> Fitted:
         seq=request.seq,
         annotation=request.annotation,
         fit=found.fit,
-        arcs=[Arc(kind=arc.kind, points=arc.points.round(2).ravel().tolist()) for arc in found.arcs],
+        arcs=arcs_of(found),
         note=note_of(found),
         mark=None if request.cap.mark is not None else _mark_for(found),
     )
+
+
+def arcs_of(found: Reconstruction) -> list[Arc]:
+    """The pieces of the visible outline as they are sent."""
+    return [
+        Arc(kind=arc.kind, points=arc.points.round(2).ravel().tolist(), told=arc.told) for arc in found.arcs
+    ]
 
 
 def _mark_for(found: Reconstruction) -> Literal["circle", "polygon"] | None:
     if found.fit.whole is None:
         return None
     return "circle" if found.shape == "regular" or found.proposal == "circle" else "polygon"
-
-
-def note_on(caps: ImageCaps, uid: str) -> str:
-    """How the whole outline of an annotation came about, or why there is none."""
-    return note_of(reconstruction_of(uid, caps.annotations[uid].cap, caps))
 
 
 def note_of(found: Reconstruction) -> str:
@@ -105,28 +109,28 @@ def load_caps(project: Project, image_id: int) -> ImageCaps | None:
 
 def derived_of(caps: ImageCaps, edits: Sequence[Edit]) -> list[Derived]:
     """Checks the caps of edits of one image and fits them, as they stand with all of these edits in it."""
-    outlines = {edit.id: _checked(edit.annotation, edit.cap, caps) for edit in edits if edit.cap is not None}
-    fits = _fits_of_edits(edits, outlines, caps)
-    return [_derived(edit, outlines.get(edit.id), fits.get(edit.id, Fit()), caps.image) for edit in edits]
+    seen = {edit.id: _checked(edit.annotation, edit.cap, caps) for edit in edits if edit.cap is not None}
+    fits = _fits_of_edits(edits, seen, caps)
+    return [_derived(edit, seen.get(edit.id), fits.get(edit.id, Fit()), caps.image) for edit in edits]
 
 
-def _derived(edit: Edit, outline: Outline | None, fit: Fit, image: Image) -> Derived:
+def _derived(edit: Edit, seen: Seen | None, fit: Fit, image: Image) -> Derived:
     if edit.cap is None:
         return Derived(edit=edit)
     try:
         # A repaired outline needs no second repair; why one cannot be used is found again at no cost.
-        cap = edit.cap if outline is None else msgspec.structs.replace(edit.cap, visible=outline)
+        cap = edit.cap if seen is None else msgspec.structs.replace(edit.cap, visible=seen.outline)
         return Derived(edit=edit, fit=fit, checked=check_cap(cap, width=image.width, height=image.height))
     except FairyringError as error:
         return Derived(edit=edit, unfit=str(error))
 
 
-def _stored(uid: str, outline: Outline, caps: ImageCaps) -> Fit | None:
+def _stored(uid: str, seen: Seen, caps: ImageCaps) -> Fit | None:
     """The stored fit of an annotation whose outline is unchanged, which it keeps; else None."""
     before = caps.annotations.get(uid)
     if before is None or before.deleted or before.whole is None:
         return None
-    if before.cap.mark is not None or before.cap.visible != outline:
+    if before.cap.mark is not None or (before.cap.visible, before.cap.told) != (seen.outline, seen.told):
         return None
     return Fit(whole=before.whole, centre=before.centre)
 
@@ -143,43 +147,45 @@ def _as_stored(found: Reconstruction, stored: Fit) -> Reconstruction:
 
 
 def _fits_of_edits(
-    edits: Sequence[Edit], outlines: Mapping[str, Outline | None], caps: ImageCaps
+    edits: Sequence[Edit], checked: Mapping[str, Seen | None], caps: ImageCaps
 ) -> dict[str, Fit]:
     """Fits by edit id; none for deletions, nor for edits that a later one of the set replaces."""
-    after = caps.with_annotations(_edited(caps, edits, outlines))
+    after = caps.with_annotations(_edited(caps, edits, checked))
     fits: dict[str, Fit] = {}
-    wanted: dict[str, Outline] = {}
+    wanted: dict[str, Seen] = {}
     for edit in {edit.annotation: edit for edit in edits}.values():
         if edit.cap is None:
             continue
-        outline = outlines[edit.id]
-        if edit.cap.mark is not None or outline is None:
+        seen = checked[edit.id]
+        if edit.cap.mark is not None or seen is None:
             fits[edit.id] = reconstruction_of(edit.annotation, edit.cap, caps).fit
-        elif (stored := _stored(edit.annotation, outline, caps)) is not None:
+        elif (stored := _stored(edit.annotation, seen, caps)) is not None:
             fits[edit.id] = stored
         else:
-            wanted[edit.id] = outline
+            wanted[edit.id] = seen
     found = caps.fitting.reconstructions(list(wanted.values()), visible=after.visible.values())
     return fits | {edit: each.fit for edit, each in zip(wanted, found, strict=True)}
 
 
-def _checked(uid: str, cap: Cap, caps: ImageCaps) -> Outline | None:
-    """The checked outline of a cap; None where it cannot be used."""
+def _checked(uid: str, cap: Cap, caps: ImageCaps) -> Seen | None:
+    """The checked outline of a cap with what is said of it; None where it cannot be used."""
     try:
-        return caps.checked_outline(uid, cap)
+        outline = caps.checked_outline(uid, cap)
+        return Seen(outline, caps.checked_arcs(uid, cap, outline))
     except GeometryError:
         return None
 
 
 def _edited(
-    caps: ImageCaps, edits: Sequence[Edit], outlines: Mapping[str, Outline | None]
+    caps: ImageCaps, edits: Sequence[Edit], checked: Mapping[str, Seen | None]
 ) -> dict[str, Annotation]:
     """The annotations once these edits are accepted; of outlines that cannot be used nothing is visible."""
     annotations = dict(caps.annotations)
     for edit in edits:
         known = annotations.get(edit.annotation)
         if edit.cap is not None:
-            cap = msgspec.structs.replace(edit.cap, visible=outlines[edit.id] or [])
+            seen = checked[edit.id] or Seen([])
+            cap = msgspec.structs.replace(edit.cap, visible=seen.outline, arcs=seen.told or msgspec.UNSET)
             annotations[edit.annotation] = Annotation(
                 uid=edit.annotation, image=edit.image, revision=edit.base, cap=cap
             )

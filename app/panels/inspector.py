@@ -9,9 +9,10 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import compare_cap, near_cap
 from fairyring.app.caps.image_caps import ImageCaps
-from fairyring.app.caps.whole_outlines import note_on
+from fairyring.app.caps.whole_outlines import arcs_of, note_of, reconstruction_of
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.arcs import arcs_list
 from fairyring.app.panels.buttons import worded_button
 from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.facts import Facts, card
@@ -21,6 +22,7 @@ from fairyring.app.panels.several import selected_caps, several_facts
 from fairyring.app.panels.status import run_badge
 from fairyring.app.panels.tags import tags_of
 from fairyring.app.panels.verdicts import open_demand
+from fairyring.app.protocol import Arc
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.contents import load_prediction, load_predictions, load_run
@@ -38,6 +40,8 @@ class Background:
     run: Run | None
     note: str = ""
     """How the whole outline came about."""
+    arcs: Sequence[Arc] = ()
+    """The pieces of the visible outline."""
     pair: Pair | None = None
 
 
@@ -83,13 +87,15 @@ async def _background(
     # A cap is compared with all that was said, also with what is not offered where the cap lies.
     said = await workspace.read(lambda connection: load_predictions(connection, caps.image.id))
     worker = workspace.crew.of_image(caps.image.id)
-    note, pair = await session.copy.ask(worker, caps, _judged, annotation.uid, near_cap(annotation, said))
-    return replace(await workspace.read(gather), note=note, pair=pair)
+    judged = await session.copy.ask(worker, caps, _judged, annotation.uid, near_cap(annotation, said))
+    note, arcs, pair = judged
+    return replace(await workspace.read(gather), note=note, arcs=arcs, pair=pair)
 
 
-def _judged(caps: ImageCaps, uid: str, said: Sequence[Prediction]) -> tuple[str, Pair | None]:
-    """How a cap's whole outline came about, and its matching prediction among those near it."""
-    return note_on(caps, uid), compare_cap(replace(caps, predictions=said), uid)
+def _judged(caps: ImageCaps, uid: str, said: Sequence[Prediction]) -> tuple[str, list[Arc], Pair | None]:
+    """How a cap's whole outline came about, from which arcs, and its matching prediction among those near."""
+    found = reconstruction_of(uid, caps.annotations[uid].cap, caps)
+    return note_of(found), arcs_of(found), compare_cap(replace(caps, predictions=said), uid)
 
 
 def annotation_facts(annotation: Annotation, background: Background) -> Markup:
@@ -105,6 +111,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         ("Centre", _point(annotation.centre)),
         ("Whole", _shape(annotation.whole)),
         ("Fit", background.note),
+        *([("Rim", arcs_list(background.arcs))] if background.arcs else []),
         ("Mark", _mark(cap.mark)),
         *_error_facts(background.pair),
         ("Overlap", order),

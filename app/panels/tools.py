@@ -6,7 +6,7 @@ from fairyring.app.live.session import Session
 from fairyring.app.panels.buttons import labelled_button, tool_button, worded_button
 from fairyring.app.panels.markup import Markup, element
 
-TOOLS = ("select", "point", "polygon", "circle", "rim_points", "rim", "split", "pan")
+TOOLS = ("select", "point", "polygon", "circle", "rim_points", "rim", "split", "arcs", "pan")
 STATUSES = ("to_do", "annotated", "approved")
 COMMANDS = ("undo", "redo", "tighten", "merge", "check", "accept_all", "done", "help")
 

@@ -9,16 +9,20 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Any
 
+import msgspec
+
 from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.geometry.shapes import (
     Centre,
     Circle,
+    GeometryError,
     Outline,
     Polygon,
     Shape,
     canonical_ellipse,
     polygon_of_shape,
 )
+from fairyring.model.geometry.told_arcs import ToldArc, require_points
 from fairyring.model.json_values import ValueRefusedError, flag, number, numbers
 
 Entry = dict[str, Any]
@@ -27,6 +31,7 @@ Segmentation = list[Any] | dict[str, Any]
 
 IGNORED = ("iscrowd", "ignore", "ignored")
 DOUBTFUL = ("doubt", "doubtful")
+TOLD_ARCS = "told_arcs"
 
 
 def own_id(entry: Entry) -> Id | None:
@@ -124,6 +129,16 @@ def is_crowd(entry: Entry) -> bool:
 def is_doubtful(entry: Entry) -> bool:
     """Whether somebody doubts it."""
     return True in [flag(entry.get(key), key) for key in DOUBTFUL if key in entry]
+
+
+def told_arcs_of(entry: Entry) -> list[ToldArc]:
+    """What people said of pieces of its outline; empty without."""
+    try:
+        arcs = msgspec.convert(entry.get(TOLD_ARCS) or [], list[ToldArc])
+        require_points(arcs)
+    except (msgspec.ValidationError, GeometryError) as error:
+        raise ValueRefusedError("Its told_arcs are not a kind and points along the outline each.") from error
+    return arcs
 
 
 def score_of(entry: Entry) -> float | None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fairyring.model.coco.annotations import Entry, is_crowd, segmentation_of
+from fairyring.model.coco.annotations import Entry, is_crowd, segmentation_of, told_arcs_of
 from fairyring.model.coco.document import Document, Item, annotations_by_image, value_of
 from fairyring.model.coco.faults import Fault, Reported, place_of
 from fairyring.model.coco.images import ImageEntry, read_images
@@ -72,11 +72,12 @@ def silhouette_of(annotation: Entry, *, width: int, height: int) -> Silhouette:
     segmentation = segmentation_of(annotation)
     if segmentation is None:
         raise ValueRefusedError("It has no visible outline.")
+    told = told_arcs_of(annotation)
     if isinstance(segmentation, list):
         outline = outline_in(segmentation, width=width, height=height)
-        return silhouette_of_outline(outline, width=width, height=height)
+        return silhouette_of_outline(outline, width=width, height=height, told=told)
     mask, (left, top) = cut_of_counts(height, counts_in(segmentation, width=width, height=height))
-    return Silhouette(np.ascontiguousarray(mask), left, top)
+    return Silhouette(np.ascontiguousarray(mask), left, top, told=told)
 
 
 def _decoded(item: Item, index: int) -> Any:

@@ -51,7 +51,7 @@ def _reconstruction(together: Together, known: _Known, cap: int) -> Reconstructi
     degrees, sd = float(known.degrees[cap]), known.sd[cap]
     if guard is not None:
         sd = np.maximum(sd, GUARDED_SD * mean_radius(whole))
-    lost = sum(arc.kind != "visible" for arc in arcs)
+    lost = sum(arc.kind not in ("visible", "contact") for arc in arcs)
     shape = "irregular" if lost else "regular"
     arcs_lost = f", {lost} arc{'s' if lost > 1 else ''} of the outline not" if lost else ""
     return Reconstruction(

@@ -9,7 +9,7 @@ from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.geometry.shapes import Fit, Points
 
 ShapeKind = Literal["regular", "irregular"]
-ArcKind = Literal["visible", "hidden", "border", "concave"]
+ArcKind = Literal["visible", "hidden", "border", "contact", "concave"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -17,11 +17,14 @@ class Arc:
     """A piece of a visible outline, and what it is a piece of."""
 
     kind: ArcKind
-    """Own rim; rim of a neighbour that lies in front; the image border; a hollow nobody accounts for."""
+    """Own rim; rim of a neighbour that lies in front; the image border; the rim of two that touch, which
+    people alone say; a hollow nobody accounts for."""
     points: Points
     """(k, 2), k ≥ 1, in order along the outline."""
     neighbour: Silhouette | None = None
-    """The cap that lies in front, for a hidden arc."""
+    """The cap that lies in front, for a hidden arc, where one does."""
+    told: bool = False
+    """Whether a person said so."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

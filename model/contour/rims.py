@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from fairyring.model.contour.silhouette import Silhouette, contours_of
 from fairyring.model.geometry.shapes import Points
+from fairyring.model.geometry.told_arcs import NOT_TOLD, told_of_points
 
 BINS = 48
 LEAST_PART = 0.1
@@ -39,6 +40,8 @@ class Rims:
     """(n,), inside the points, px²."""
     corner: NDArray[np.bool_]
     """(n, K), whether the points' convex hull has a corner here."""
+    told: NDArray[np.int64]
+    """(n, K), what people said of the points, as `told_of_points` has it."""
 
 
 def rims_of(caps: Sequence[Silhouette]) -> Rims:
@@ -52,7 +55,27 @@ def rims_of(caps: Sequence[Silhouette]) -> Rims:
     outward *= np.where(_area(points) >= 0, 1, -1)[:, None, None]
     # The outermost pixel centres lie half a pixel's width inside the edge, measured along its normal.
     points = points + outward * (np.abs(outward).max(axis=-1, keepdims=True) / 2)
-    return Rims(points, outward, length / 2, pixels, np.abs(_area(points)), _corners(points))
+    spacing = length / 2
+    return Rims(
+        points,
+        outward,
+        spacing,
+        pixels,
+        np.abs(_area(points)),
+        _corners(points),
+        _told(caps, points, spacing),
+    )
+
+
+def _told(
+    caps: Sequence[Silhouette], points: NDArray[np.float64], spacing: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """(n, K), what people said of the points (n, K, 2) of these rims."""
+    told = np.full(points.shape[:2], NOT_TOLD)
+    for nth, cap in enumerate(caps):
+        if cap.told:
+            told[nth] = told_of_points(cap.told, points[nth], spacing[nth])
+    return told
 
 
 def _corners(points: NDArray[np.float64]) -> NDArray[np.bool_]:

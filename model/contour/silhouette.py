@@ -6,6 +6,7 @@ that pixel's centre lies, index + 0.5. The true edge runs a little outside it: s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import blake2b
@@ -13,12 +14,14 @@ from itertools import takewhile
 from math import ceil, floor, sqrt
 
 import cv2
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.raster import mask_of_outline
 from fairyring.model.geometry.shapes import Outline, Points, centres_of_pixels, part_of_points, points_of_part
+from fairyring.model.geometry.told_arcs import ToldArc
 
 RIM_INSET = sqrt(2) / np.pi
 """How far the outermost pixel centres lie inside the edge that cut them: the mean of all directions, pixels.
@@ -31,7 +34,7 @@ Along an edge whose normal is (nx, ny) their distance to it is spread evenly ove
 class Silhouette:
     """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``.
 
-    Two of the same pixels, of which the same is thought, are equal. A mask is never changed in place.
+    Two of the same pixels, of which the same is thought and said, are equal. A mask is never changed in place.
     """
 
     mask: NDArray[np.uint8]
@@ -39,6 +42,8 @@ class Silhouette:
     top: int
     likely: LikelyEllipse | None = None
     """The whole outline that who drew this one held to be likely."""
+    told: Sequence[ToldArc] = ()
+    """What people said of pieces of its rim."""
 
     @property
     def box(self) -> tuple[int, int, int, int]:
@@ -53,8 +58,11 @@ class Silhouette:
 
     @cached_property
     def content(self) -> tuple[tuple[int, int, int, int], bytes, LikelyEllipse | None]:
-        """The box, a digest of the mask, and what is likely, which tell silhouettes apart."""
-        return self.box, blake2b(self.mask.tobytes(), digest_size=16).digest(), self.likely
+        """The box, a digest of mask and said arcs, and what is likely: these tell silhouettes apart."""
+        digest = blake2b(self.mask.tobytes(), digest_size=16)
+        if self.told:
+            digest.update(msgspec.json.encode(self.told))
+        return self.box, digest.digest(), self.likely
 
     def __eq__(self, other: object) -> bool:
         return self is other or (isinstance(other, Silhouette) and self.content == other.content)
@@ -71,10 +79,16 @@ NOTHING = Silhouette(np.zeros((0, 0), np.uint8), 0, 0)
 
 
 def silhouette_of_outline(
-    outline: Outline, *, width: int, height: int, likely: LikelyEllipse | None = None
+    outline: Outline,
+    *,
+    width: int,
+    height: int,
+    likely: LikelyEllipse | None = None,
+    told: Sequence[ToldArc] = (),
 ) -> Silhouette:
     """The pixels of an image of this size that an outline covers; what lies outside the image is cut off.
 
+    ``told`` is what people said of pieces of it.
     Parts of fewer than three points cover nothing, nor does an outline with a coordinate that is not finite.
     ``likely``: the whole outline, as who drew this one sees it.
     """
@@ -90,7 +104,8 @@ def silhouette_of_outline(
     if right <= left or bottom <= top:
         return NOTHING
     local = [part_of_points(part - (left, top)) for part in parts]
-    return Silhouette(mask_of_outline(local, height=bottom - top, width=right - left), left, top, likely)
+    mask = mask_of_outline(local, height=bottom - top, width=right - left)
+    return Silhouette(mask, left, top, likely, told)
 
 
 def contours_of(silhouette: Silhouette, *, least: float = 0) -> list[Points]:

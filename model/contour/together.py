@@ -32,6 +32,7 @@ from fairyring.model.contour.priors import Priors
 from fairyring.model.contour.rims import Rims
 from fairyring.model.contour.silhouette import Silhouette
 from fairyring.model.contour.statistics import Statistics
+from fairyring.model.geometry.told_arcs import NOT_TOLD, TOLD_KINDS
 
 FIRST_GLANCE = 0.2
 """How probable it is that a border is one's own rim, before anything is known."""
@@ -39,6 +40,8 @@ LOOKS = 3
 FIRST_SOFTNESS = (3.0, 2.0, 1.0, 1.0)
 NEXT_SOFTNESS = (1.0, 1.0)
 """Steps of the fit of the first look and of those after decisions on the borders."""
+IS_OWN_RIM = np.array([kind in ("visible", "contact") for kind in TOLD_KINDS], np.float64)
+"""By the kind of an arc that a person named: where two caps touch, the border is the rim of both."""
 HIDDEN_DOUBT = 0.6
 """Standard deviations grow by this share for a rim that is all hidden: borders may have been misjudged."""
 
@@ -82,7 +85,7 @@ class Together:
 def first_look(rims: Rims, contact: Contact, expected: Expected, priors: Priors) -> Look:
     """Fits n ≥ 1 caps, each by itself."""
     around = enclosing_circles(rims, priors)
-    own = np.where(contact.neighbour == NOBODY, contact.free, FIRST_GLANCE)
+    own = as_told(np.where(contact.neighbour == NOBODY, contact.free, FIRST_GLANCE), rims)
     evidence = Evidence(
         points=rims.points,
         weight=rims.spacing / expected_power(FIRST_NOISE, priors),
@@ -115,6 +118,7 @@ def next_look(
     meetings = meetings_of(contact, rims, before.estimate, noise=statistics.noise)
     own = seen_share(contact, meetings)[:caps]
     rims, estimate = first_caps(rims, caps=caps), first_caps(before.estimate, caps=caps)
+    own = as_told(own, rims)
     evidence = Evidence(
         points=rims.points,
         weight=rims.spacing / statistics.power,
@@ -128,6 +132,11 @@ def next_look(
         expected=expected,
     )
     return Look(fit_outlines(evidence, estimate.outlines, priors, softness=NEXT_SOFTNESS), own)
+
+
+def as_told(own: Array, rims: Rims) -> Array:
+    """How probable it is that points (n, K) lie on the own rim: as people said, else as it was worked out."""
+    return np.where(rims.told == NOT_TOLD, own, IS_OWN_RIM[rims.told])
 
 
 def reaches_around(rims: Rims, around: Outlines) -> Array:

@@ -62,6 +62,13 @@ export default {
           "label": "Split",
           "hint": "One stroke across a cap, from rim to rim"
         },
+        {
+          "name": "arcs",
+          "keys": ["L"],
+          "words": "Say what pieces of a rim are: own, hidden, cut off, touching",
+          "label": "Arcs",
+          "hint": "Click a piece of the rim, or drag along it: it is the next kind · Del: as worked out"
+        },
         { "name": "part", "keys": ["Shift+W"], "words": "Draw another part of the selected cap" },
         {
           "name": "pan",

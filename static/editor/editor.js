@@ -29,6 +29,7 @@ import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
 import { openOutbox } from "./sync/tab_outbox.js";
 import { Transport } from "./sync/transport.js";
+import { listenToArcs } from "./ui/arc_choices.js";
 import { firstAddress, keepPlace } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
@@ -239,6 +240,7 @@ export class Editor {
       compare: () => void (this.#reviewing.review.on = true),
     });
     listenToTags(() => state.image, (tag) => void this.#send(tag), this.#say);
+    listenToArcs(state);
     const legend = legendIn(host);
     state.look.changed.listen((_, { colouring }) => legend(colouring));
     followView(state.layers, state.look);

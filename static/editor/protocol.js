@@ -14,6 +14,7 @@
 /** @typedef {import("./messages/records.js").Ellipse} Ellipse */
 /** @typedef {import("./messages/records.js").Polygon} Polygon */
 /** @typedef {import("./messages/records.js").Image} Image */
+/** @typedef {import("./messages/records.js").ToldArc} ToldArc */
 /** @typedef {import("./messages/records.js").Cap} Cap */
 /** @typedef {import("./messages/records.js").Annotation} Annotation */
 /** @typedef {import("./messages/records.js").Prediction} Prediction */

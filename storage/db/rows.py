@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from msgspec import UNSET
 from sqlalchemy import Connection, Row, Select, func, insert, select
 
 from fairyring.model.geometry.shapes import Fit
@@ -55,6 +56,7 @@ def annotation_of(row: AnyRow) -> Annotation:
             order=row.overlap,
             category=row.category_name,
             prediction=row.prediction,
+            arcs=row.arcs or UNSET,
         ),
         deleted=row.deleted,
         whole=row.whole,
@@ -102,6 +104,7 @@ def values_of_cap(cap: Cap, *, categories: dict[str, int]) -> dict[str, Any]:
         "overlap": cap.order,
         "category": categories[cap.category],
         "prediction": cap.prediction,
+        "arcs": cap.arcs or None,
     }
 
 

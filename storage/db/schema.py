@@ -12,6 +12,7 @@ from typing import Any
 from sqlalchemy import Column, ForeignKey, Index, Integer, MetaData, Table, Text, UniqueConstraint, and_
 
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage.db.columns import Flag, Json, Real
 from fairyring.storage.records import Cap, Mark, Outline, Rules, SamplingPlan, Shape
 
@@ -128,6 +129,7 @@ annotation = Table(
     Column("overlap", Integer),
     Column("category", Integer, ForeignKey("category.id"), nullable=False),
     Column("prediction", Integer, ForeignKey("prediction.id")),
+    Column("arcs", Json(list[ToldArc])),
     Column("whole", Json(Shape)),
     Column("centre_x", Real),
     Column("centre_y", Real),

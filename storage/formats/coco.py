@@ -10,9 +10,10 @@ from collections import Counter
 from pathlib import PurePosixPath
 from typing import Any
 
-from msgspec import structs
+from msgspec import UNSET, structs
 
 from fairyring.model.coco.annotations import (
+    TOLD_ARCS,
     Entry,
     centre_of,
     centre_sd_of,
@@ -27,6 +28,7 @@ from fairyring.model.coco.annotations import (
     score_of,
     segmentation_of,
     shape_of,
+    told_arcs_of,
 )
 from fairyring.model.coco.categories import category_of, listed_categories, name_of_category
 from fairyring.model.coco.document import (
@@ -40,6 +42,7 @@ from fairyring.model.coco.faults import Fault, Reported
 from fairyring.model.coco.ids import Id, id_of
 from fairyring.model.coco.images import ImageEntry, by_path, read_images
 from fairyring.model.geometry.shapes import Mark, Polygon
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.model.json_values import ValueRefusedError, flag, kept, shown, text
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.model.splits import split_called
@@ -56,7 +59,7 @@ CATEGORY_KEYS = {"id", "name", "keypoints", "skeleton"}
 ANNOTATION_KEYS = {
     *("id", "image_id", "category_id", "segmentation", "bbox", "area", "iscrowd", "score", "uid"),
     *("ignore", "ignored", "doubt", "doubtful", "order", "center", "circle", "ellipse", "mark", "marked"),
-    *("segmentation_of", "occlude_rate", "refusal", "mark_sd"),
+    *("segmentation_of", "occlude_rate", "refusal", "mark_sd", TOLD_ARCS),
 }
 OWN_ANNOTATION_KEYS = ANNOTATION_KEYS | {"keypoints", "num_keypoints", "amodal_segmentation"}
 """Of an annotation of our own export, which derives the last three; where others wrote them they are kept."""
@@ -207,6 +210,7 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
             doubtful=is_doubtful(entry) or box is not None,
             order=_order(entry, where, faults),
             category=category,
+            arcs=_told_arcs(entry, where, faults) or UNSET,
         ),
         score=score_of(entry),
         quality=quality,
@@ -234,6 +238,13 @@ def _order(entry: Entry, where: str, faults: list[Fault]) -> int | None:
         faults.append(Fault(where, f"The overlap order lies between -{MAX_ORDER} and {MAX_ORDER}."))
         return None
     return order
+
+
+def _told_arcs(entry: Entry, where: str, faults: list[Fault]) -> list[ToldArc]:
+    """What is said of pieces of the outline; what makes no sense is reported and left out."""
+    with Reported(where, faults.append):
+        return told_arcs_of(entry)
+    return []
 
 
 def _licenses(document: Document) -> dict[Id | None, Any]:

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 import msgspec
 from msgspec import Raw
 
+from fairyring.model.coco.annotations import TOLD_ARCS
 from fairyring.model.coco.writing import MARKED, RECONSTRUCTED, centre_keys, rounded
 from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.formats.coco_geometry import Drawn
@@ -68,6 +69,8 @@ def annotation_entry(
         entry["ignored"] = True
     if cap.order is not None:
         entry["order"] = cap.order
+    if cap.told:
+        entry[TOLD_ARCS] = msgspec.to_builtins(cap.told)
     if "amodal_segmentation" in extra:
         entry["amodal_segmentation"] = extra["amodal_segmentation"]
     if verdicts or VERDICTS in extra:

@@ -164,6 +164,7 @@ def _taken_over(found: FoundCap, known: Cap, size: tuple[int, int]) -> Cap:
         doubtful=said.doubtful or known.doubtful,
         order=known.order if said.order is None else said.order,
         category=said.category,
+        arcs=said.arcs or known.arcs,
     )
 
 

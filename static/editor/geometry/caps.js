@@ -6,6 +6,7 @@
  */
 
 import { boundsOfPoints, joinedAll } from "./bounds.js";
+import { movedArcs } from "./told_arcs.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../protocol.js").Circle} Circle */
@@ -62,7 +63,8 @@ export function movedCap(cap, dx, dy) {
     cap,
     ringsOf(cap).map((ring) => ring.map((value, i) => value + (i % 2 ? dy : dx))),
   );
-  return { ...moved, mark: moved.mark && movedMark(moved.mark, dx, dy) };
+  const mark = moved.mark && movedMark(moved.mark, dx, dy);
+  return cap.arcs ? { ...moved, mark, arcs: movedArcs(cap.arcs, dx, dy) } : { ...moved, mark };
 }
 
 /** @type {(mark: Mark, dx: number, dy: number) => Mark} */

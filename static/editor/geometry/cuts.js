@@ -39,7 +39,7 @@ export function splitCap(cap, stroke, { reach, tolerance }) {
     const moves = cap.mark !== null && insideRing(small, ...middleOf(cap.mark));
     return [
       { ...cap, visible: [large, ...others], mark: moves ? null : cap.mark },
-      newCap({ visible: [small], mark: moves ? cap.mark : null, category: cap.category }),
+      newCap({ visible: [small], mark: moves ? cap.mark : null, category: cap.category, ...saidOf(cap) }),
     ];
   }
   return null;
@@ -59,6 +59,11 @@ function splitRing(ring, stroke, reach, tolerance) {
   ].map((points) => points.flatMap(([x, y]) => [hundredths(x), hundredths(y)]));
   const whole = pieces.every((piece) => piece.length / 2 >= FEWEST && areaOfRing(piece) >= LEAST_AREA);
   return whole ? [pieces[0], pieces[1]] : null;
+}
+
+/** What was said of pieces of a rim stays with them; the server drops it where they are not. @type {(cap: Cap) => Partial<Cap>} */
+function saidOf({ arcs }) {
+  return arcs ? { arcs } : {};
 }
 
 /** @type {(mark: Mark) => Point} */

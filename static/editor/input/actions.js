@@ -90,6 +90,7 @@ export const ACTIONS = {
   rim_points: ({ use }) => use("rim_points"),
   rim: ({ use }) => use("rim"),
   split: ({ use }) => use("split"),
+  arcs: ({ use }) => use("arcs"),
   point: ({ use }) => use("point"),
   part: ({ drawPart }) => drawPart(),
   pan: ({ use }) => use("pan"),

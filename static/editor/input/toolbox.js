@@ -4,6 +4,7 @@
  * @module
  */
 
+import { ArcsTool } from "./tools/arcs.js";
 import { Broom } from "./tools/broom.js";
 import { CircleTool } from "./tools/circle.js";
 import { panTool } from "./tools/pan.js";
@@ -56,6 +57,7 @@ export class Toolbox {
       rim,
       split: splitTool(state, say),
       point: new PointTool(state, say, network),
+      arcs: new ArcsTool(state, say),
       pan: panTool(state),
     };
     this.tool = this.#tools.select;

@@ -122,8 +122,9 @@
 
 /**
  * @typedef {Object} Arc
- * @property {"visible" | "hidden" | "border" | "concave"} kind
+ * @property {"visible" | "hidden" | "border" | "contact" | "concave"} kind
  * @property {number[]} points
+ * @property {boolean} told
  */
 
 /**

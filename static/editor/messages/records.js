@@ -55,6 +55,12 @@
  */
 
 /**
+ * @typedef {Object} ToldArc
+ * @property {"visible" | "hidden" | "border" | "contact"} kind
+ * @property {number[]} points
+ */
+
+/**
  * @typedef {Object} Cap
  * @property {Outline} visible
  * @property {Mark | null} mark
@@ -63,6 +69,7 @@
  * @property {number | null} order
  * @property {string} category
  * @property {number | null} prediction
+ * @property {ToldArc[]} [arcs]
  */
 
 /**

@@ -29,9 +29,10 @@ export const COLOURS = {
  * @type {Record<import("../protocol.js").Arc["kind"], {name: string, colour: string, dash: number[]}>}
  */
 export const ARCS = {
-  visible: { name: "rim", colour: "#45c8ff", dash: [] },
+  visible: { name: "own rim", colour: "#45c8ff", dash: [] },
   hidden: { name: "behind a neighbour", colour: "#ff7a45", dash: [9, 6] },
-  border: { name: "image border", colour: "#ffffff", dash: [14, 5, 1, 5] },
+  border: { name: "cut off", colour: "#ffffff", dash: [14, 5, 1, 5] },
+  contact: { name: "touching", colour: "#7df0b4", dash: [24, 7] },
   concave: { name: "hollow", colour: "#f6f04e", dash: [1, 6] },
 };
 

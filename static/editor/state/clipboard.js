@@ -57,7 +57,8 @@ export class Clipboard {
 /** @type {(shapes: Shape[], dx: number, dy: number) => Change[]} */
 function newOnes(shapes, dx, dy) {
   return shapes.map(({ cap }) => {
-    const { visible, mark, order, category, ignored } = movedCap(cap, dx, dy);
-    return { before: null, after: newShape(newId(), newCap({ visible, mark, order, category, ignored })) };
+    const { visible, mark, order, category, ignored, arcs } = movedCap(cap, dx, dy);
+    const copy = newCap({ visible, mark, order, category, ignored, ...(arcs && { arcs }) });
+    return { before: null, after: newShape(newId(), copy) };
   });
 }

@@ -19,8 +19,10 @@ export function merged(shapes) {
   );
   const visible = mergedOutline(shapes.map(({ cap }) => cap));
   const mark = kept.cap.mark ?? others.find(({ cap }) => cap.mark)?.cap.mark ?? null;
+  const arcs = shapes.flatMap(({ cap }) => cap.arcs ?? []);
+  const cap = { ...kept.cap, visible, mark, ...(arcs.length && { arcs }) };
   return [
-    changed(kept, withCap(kept, { ...kept.cap, visible, mark })),
+    changed(kept, withCap(kept, cap)),
     ...others.map((shape) => changed(shape, { ...shape, deleted: true })),
   ];
 }

@@ -75,7 +75,7 @@ const CHORDS = [
   ["a French key of a digit with Shift", { key: "1", code: "Digit1", shiftKey: true }, "layer_photo"],
   ["a digit of the keypad", { key: "7", code: "Numpad7" }, "layer_prediction"],
   ["Alt+ArrowUp, for keyboards without ]", { key: "ArrowUp", altKey: true }, "raise"],
-  ["L on a Dvorak keyboard, where P would be", { key: "l", code: "KeyP" }, null],
+  ["L on a Dvorak keyboard, where P would be", { key: "l", code: "KeyP" }, "arcs"],
   ["{, which is Shift and the key of [", { key: "{", code: "BracketLeft", shiftKey: true }, null],
   ["F5, which is the browser's", { key: "F5", code: "F5" }, null],
   ["Ctrl+Alt+Z, which is nobody's", { key: "z", ctrlKey: true, altKey: true }, null],
@@ -100,6 +100,6 @@ test("every tool says what it does while it is in hand", () => {
   const hints = COMMANDS.filter((command) => "hint" in command).map(({ name }) => name);
   assert.deepEqual(
     hints.sort(),
-    ["circle", "pan", "point", "polygon", "rim", "rim_points", "select", "split"],
+    ["arcs", "circle", "pan", "point", "polygon", "rim", "rim_points", "select", "split"],
   );
 });

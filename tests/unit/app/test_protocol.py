@@ -11,12 +11,14 @@ import pytest
 
 from fairyring.app import protocol as messages
 from fairyring.model.geometry.shapes import Circle, Ellipse, Fit, Polygon
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage import records
 
 MESSAGES = Path(__file__).parents[3] / "static" / "editor" / "messages"
 SOURCE = "\n".join(file.read_text(encoding="utf-8") for file in sorted(MESSAGES.glob("*.js")))
 STRUCTS = (
     records.Image,
+    ToldArc,
     records.Cap,
     records.Annotation,
     records.Prediction,
@@ -37,7 +39,7 @@ STRUCTS = (
 def typed() -> dict[str, dict[str, str]]:
     """Name → property → type, of every object typedef."""
     blocks = re.findall(r"@typedef \{Object\} (\w+)(.*?)\*/", SOURCE, re.DOTALL)
-    properties = re.compile(r"@property \{(.+?)\} (\w+)$", re.MULTILINE)
+    properties = re.compile(r"@property \{(.+?)\} \[?(\w+)\]?$", re.MULTILINE)
     return {name: {field: kind for kind, field in properties.findall(body)} for name, body in blocks}
 
 

@@ -8,39 +8,40 @@ import numpy as np
 import pytest
 
 from fairyring.app.bench.crowd import crowded_outlines
-from fairyring.app.caps.fitting import Fitting, Likely, known_statistics, likely_by_outline
+from fairyring.app.caps.fitting import Fitting, Likely, Seen, known_statistics, likely_by_outline
 from fairyring.model.contour import fitted_image, together
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Outline
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage.records import Image
 
 IMAGE = Image(id=1, file_name="a.jpg", path="a.jpg", width=3840, height=2160, sha256="")
 
 
 @pytest.fixture(scope="module")
-def outlines() -> list[Outline]:
+def caps() -> list[Seen]:
     """Fifty caps on each other."""
-    return crowded_outlines(50)
+    return [Seen(outline) for outline in crowded_outlines(50)]
 
 
 def fitting() -> Fitting:
     return Fitting(IMAGE, known_statistics(IMAGE))
 
 
-def test_a_cap_asked_for_alone_is_fitted_as_among_all(outlines: list[Outline]) -> None:
-    all_at_once = fitting().reconstructions(outlines, visible=outlines)
+def test_a_cap_asked_for_alone_is_fitted_as_among_all(caps: list[Seen]) -> None:
+    all_at_once = fitting().reconstructions(caps, visible=caps)
     one_by_one = fitting()
-    for outline, expected in list(zip(outlines, all_at_once, strict=True))[::7]:
-        (alone,) = fitting().reconstructions([outline], visible=outlines)
-        (in_turn,) = one_by_one.reconstructions([outline], visible=outlines)
+    for cap, expected in list(zip(caps, all_at_once, strict=True))[::7]:
+        (alone,) = fitting().reconstructions([cap], visible=caps)
+        (in_turn,) = one_by_one.reconstructions([cap], visible=caps)
         assert alone.fit == in_turn.fit == expected.fit
 
 
-def test_a_dragged_cap_is_fitted_as_in_an_image_made_anew(outlines: list[Outline]) -> None:
-    kept, visible = fitting(), list(outlines)
+def test_a_dragged_cap_is_fitted_as_in_an_image_made_anew(caps: list[Seen]) -> None:
+    kept, visible = fitting(), list(caps)
     for index, way in ((3, 5.0), (3, -4.0), (20, 6.0), (3, 2.0)):
-        first = visible[index][0]
-        visible[index] = [[first[0] + way, *first[1:]]]
+        first = visible[index].outline[0]
+        visible[index] = Seen([[first[0] + way, *first[1:]]])
         (dragged,) = kept.reconstructions([visible[index]], visible=visible)
         (anew,) = fitting().reconstructions([visible[index]], visible=visible)
         assert dragged.fit == anew.fit
@@ -49,31 +50,29 @@ def test_a_dragged_cap_is_fitted_as_in_an_image_made_anew(outlines: list[Outline
     ]
 
 
-def test_statistics_are_measured_on_all_that_is_visible_at_first(outlines: list[Outline]) -> None:
+def test_statistics_are_measured_on_all_that_is_visible_at_first(caps: list[Seen]) -> None:
     alone, all_at_once = Fitting(IMAGE, None), Fitting(IMAGE, None)
-    alone.reconstructions(outlines[:1], visible=outlines)
-    all_at_once.reconstructions(outlines, visible=outlines)
+    alone.reconstructions(caps[:1], visible=caps)
+    all_at_once.reconstructions(caps, visible=caps)
     assert alone.statistics == all_at_once.statistics
-    alone.reconstructions(outlines[:1], visible=outlines[:20])
+    alone.reconstructions(caps[:1], visible=caps[:20])
     assert alone.statistics == all_at_once.statistics
 
 
-def test_the_same_question_again_takes_no_look(
-    outlines: list[Outline], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_same_question_again_takes_no_look(caps: list[Seen], monkeypatch: pytest.MonkeyPatch) -> None:
     kept = fitting()
-    first = kept.reconstructions(outlines[:3], visible=outlines)
+    first = kept.reconstructions(caps[:3], visible=caps)
     looks: list[str] = []
     for name in ("first_look", "next_look"):
         monkeypatch.setattr(fitted_image, name, lambda *_, name=name, **__: looks.append(name))
-    copies = [[list(part) for part in outline] for outline in outlines]
+    copies = [Seen([list(part) for part in cap.outline]) for cap in caps]
     again = kept.reconstructions(copies[:3], visible=copies[::-1])
     assert [r.fit for r in again] == [r.fit for r in first]
     assert looks == []
 
 
 def test_one_cap_of_many_is_worked_out_without_looking_at_all(
-    outlines: list[Outline], monkeypatch: pytest.MonkeyPatch
+    caps: list[Seen], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     seen: list[int] = []
 
@@ -83,9 +82,11 @@ def test_one_cap_of_many_is_worked_out_without_looking_at_all(
 
     monkeypatch.setattr(fitted_image, "first_look", counted)
     across = np.array([1500.0, 0.0])
-    far = [[(np.reshape(part, (-1, 2)) + across).ravel().tolist() for part in o] for o in outlines]
-    fitting().reconstructions([outlines[0]], visible=[*outlines, *far])
-    assert 0 < sum(seen) < len(outlines)
+    far = [
+        Seen([(np.reshape(part, (-1, 2)) + across).ravel().tolist() for part in cap.outline]) for cap in caps
+    ]
+    fitting().reconstructions([caps[0]], visible=[*caps, *far])
+    assert 0 < sum(seen) < len(caps)
 
 
 HALF: Outline = [[v for t in np.linspace(0, np.pi, 25) for v in (400 + 60 * np.cos(t), 300 + 60 * np.sin(t))]]
@@ -100,7 +101,8 @@ SAID = LikelyEllipse(
 class TestWhatANetworkSaid:
     def centre(self, outline: Outline, likely: Likely) -> tuple[float, float]:
         kept = Fitting(IMAGE, known_statistics(IMAGE), likely)
-        (found,) = kept.reconstructions([outline], visible=[outline])
+        seen = [Seen(outline)]
+        (found,) = kept.reconstructions(seen, visible=seen)
         assert found.fit.centre is not None
         return found.fit.centre
 
@@ -121,14 +123,14 @@ class TestWhatANetworkSaid:
         assert self.centre(moved, likely) == self.centre(moved, {})
         assert self.centre([list(HALF[0])], likely) == self.centre(HALF, likely)
 
-    def test_a_cap_alone_is_fitted_as_among_all(self, outlines: list[Outline]) -> None:
-        said = [(outline, self.around(outline)) for outline in outlines[::2]]
+    def test_a_cap_alone_is_fitted_as_among_all(self, caps: list[Seen]) -> None:
+        said = [(cap.outline, self.around(cap.outline)) for cap in caps[::2]]
         likely = likely_by_outline(said)
-        together = Fitting(IMAGE, known_statistics(IMAGE), likely).reconstructions(outlines, visible=outlines)
-        bare = fitting().reconstructions(outlines, visible=outlines)
+        together = Fitting(IMAGE, known_statistics(IMAGE), likely).reconstructions(caps, visible=caps)
+        bare = fitting().reconstructions(caps, visible=caps)
         for index in range(0, 50, 8):
             alone = Fitting(IMAGE, known_statistics(IMAGE), likely)
-            (found,) = alone.reconstructions([outlines[index]], visible=outlines)
+            (found,) = alone.reconstructions([caps[index]], visible=caps)
             assert found.fit == together[index].fit
             assert found.fit != bare[index].fit
 
@@ -136,3 +138,14 @@ class TestWhatANetworkSaid:
         x, y = np.mean(np.reshape(outline[0], (-1, 2)), axis=0).tolist()
         covariance = tuple(tuple(row) for row in (np.eye(5) * 0.01).tolist())
         return LikelyEllipse(parameters=(x, y, math.log(40.0), 0.1, 0.0), covariance=covariance)
+
+
+def test_what_is_said_of_a_rim_changes_the_fit_of_that_cap_until_it_is_taken_back(caps: list[Seen]) -> None:
+    kept = fitting()
+    (before,) = kept.reconstructions(caps[:1], visible=caps)
+    half = before.arcs[0].points.ravel().tolist()
+    told = Seen(caps[0].outline, [ToldArc(kind="border", points=half)])
+    (after,) = kept.reconstructions([told], visible=[told, *caps[1:]])
+    (again,) = kept.reconstructions(caps[:1], visible=caps)
+    assert after.coverage_deg < before.coverage_deg
+    assert after.fit != before.fit == again.fit

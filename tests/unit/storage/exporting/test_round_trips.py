@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from fairyring.model.geometry.raster import mask_of_outline
 from fairyring.model.geometry.shapes import Circle, Ellipse, Polygon, fit_of_shape
+from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.formats.coco import parse_coco
 from fairyring.storage.formats.coco_geometry import geometry_keys
@@ -27,7 +28,12 @@ from tests.support.exported import SQUARE, TRIANGLE, export, store
 def test_what_is_exported_and_imported_into_a_new_project_is_the_same(beds, out, tmp_path):
     """Of every kind of cap, through real files."""
     stored = [
-        Cap(visible=[SQUARE, TRIANGLE], doubtful=True, order=2),
+        Cap(
+            visible=[SQUARE, TRIANGLE],
+            doubtful=True,
+            order=2,
+            arcs=[ToldArc(kind="hidden", points=SQUARE[:4])],
+        ),
         Cap(visible=[SQUARE], mark=Circle(20.25, 20.5, 11.125), ignored=True),
         Cap(visible=[TRIANGLE], mark=Ellipse(50, 46, 11, 10, 45), category="mushroom"),
         Cap(visible=[SQUARE], mark=Polygon(SQUARE)),
