@@ -19,7 +19,14 @@ from fairyring.app.gateway.static_files import StaticFiles, static_files
 from fairyring.app.gateway.viser_client import DECODER, MODULE, START, STYLES, WASM, load_viser
 
 MAIN = "editor/main.js"
-OWN_STYLES = ("style.css", "panel.css", "overview.css")
+OWN_STYLES = tuple(
+    f"styles/{name}.css"
+    for name in (
+        *("editor", "messages", "dialogs"),
+        *("viser", "panel", "tools", "cap", "view", "desk", "overview"),
+    )
+)
+"""Over the photo, then in the panel: what several share comes before what refines it."""
 POLICY = "; ".join(
     (
         "default-src 'none'",

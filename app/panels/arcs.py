@@ -9,7 +9,7 @@ import numpy as np
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.protocol import Arc
 from fairyring.model.contour.result import ArcKind
-from fairyring.model.geometry.shapes import points_of_part
+from fairyring.model.geometry.shapes import Points, points_of_part
 from fairyring.model.geometry.told_arcs import TOLD_KINDS
 
 WORDS: dict[ArcKind, str] = {
@@ -31,7 +31,7 @@ def arcs_list(arcs: Sequence[Arc]) -> Markup:
     rows = (
         element(
             "label",
-            element("span", f"{_place(line, middle)}, {round(100 * len(line) / whole)} %"),
+            element("span", _where(line, middle, share=len(line) / whole)),
             _choice(arc),
         )
         for arc, line in zip(arcs, lines, strict=True)
@@ -39,9 +39,12 @@ def arcs_list(arcs: Sequence[Arc]) -> Markup:
     return element("div", *rows, class_="fr-arcs")
 
 
-def _place(line: np.ndarray, middle: np.ndarray) -> str:
+def _where(line: Points, middle: Points, *, share: float) -> str:
+    if share == 1:
+        return "all round"
     x, y = line[len(line) // 2] - middle
-    return PLACES[round(np.degrees(np.arctan2(y, x)) / 45) % len(PLACES)]
+    place = PLACES[round(np.degrees(np.arctan2(y, x)) / 45) % len(PLACES)]
+    return f"{place}, {share:.0%}".replace("%", " %")
 
 
 def _choice(arc: Arc) -> Markup:

@@ -8,7 +8,7 @@ from fairyring.app.panels.markup import Markup, element
 
 TOOLS = ("select", "point", "polygon", "circle", "rim_points", "rim", "split", "arcs", "pan")
 STATUSES = ("to_do", "annotated", "approved")
-COMMANDS = ("undo", "redo", "tighten", "merge", "check", "accept_all", "done", "help")
+COMMANDS = ("undo", "redo", "tighten", "check", "accept_all", "done", "help")
 
 
 def build(session: Session) -> None:

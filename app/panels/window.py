@@ -9,7 +9,7 @@ GREEN = (47, 111, 79)
 WIDE, NARROW = 380, 304
 """Widths of the panel, CSS pixels."""
 NARROW_BELOW = 1200
-"""Windows less wide have a narrow panel; ``static/panel.css`` says the same."""
+"""Windows less wide have a narrow panel; ``static/styles`` says the same."""
 
 
 def panel_width(window: int) -> int:

@@ -67,7 +67,7 @@ export default {
           "keys": ["L"],
           "words": "Say what pieces of a rim are: own, hidden, cut off, touching",
           "label": "Arcs",
-          "hint": "Click a piece of the rim, or drag along it: it is the next kind · Del: as worked out"
+          "hint": "Click a piece of the rim, or drag along it, to call it something else · Del: as worked out"
         },
         { "name": "part", "keys": ["Shift+W"], "words": "Draw another part of the selected cap" },
         {

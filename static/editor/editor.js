@@ -7,12 +7,11 @@
 import { goingIn } from "./going.js";
 import { Fingers } from "./input/fingers.js";
 import { tightened } from "./input/actions/tightening.js";
-import { bringFocusBack } from "./input/focus.js";
-import { listenToKeys } from "./input/keyboard.js";
 import { Pointer } from "./input/pointer.js";
 import { RimSuggestion } from "./input/rim_suggestion.js";
 import { Toolbox } from "./input/toolbox.js";
 import { travelIn } from "./input/travel.js";
+import { listen } from "./listening.js";
 import { Opening } from "./opening.js";
 import { performer } from "./performing.js";
 import { expose } from "./probe.js";
@@ -29,24 +28,16 @@ import { LiveFit } from "./sync/live_fit.js";
 import { Sync } from "./sync/sync.js";
 import { openOutbox } from "./sync/tab_outbox.js";
 import { Transport } from "./sync/transport.js";
-import { listenToArcs } from "./ui/arc_choices.js";
-import { firstAddress, keepPlace } from "./ui/address.js";
+import { firstAddress } from "./ui/address.js";
 import { captionIn } from "./ui/caption.js";
 import { ConflictDialog } from "./ui/conflict.js";
-import { nameFields } from "./ui/field_names.js";
 import { hintIn } from "./ui/hint.js";
 import { noticesIn } from "./ui/notices.js";
-import { legendIn } from "./ui/legend.js";
-import { listenToPanel, pressedButtons } from "./ui/panel.js";
-import { showProgress } from "./ui/progress.js";
+import { pressedButtons } from "./ui/panel.js";
 import { Refusals } from "./ui/refusals.js";
 import { statusIn } from "./ui/status.js";
 import { Threshold } from "./ui/threshold.js";
-import { listenToTags } from "./ui/tags.js";
-import { takePhotos } from "./ui/uploads.js";
-import { followView } from "./ui/view_controls.js";
 import { aboutWindow } from "./ui/window.js";
-import { zoomButtonsIn } from "./ui/zoom_buttons.js";
 
 /** @typedef {import("./geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("./protocol.js").FromServer} FromServer */
@@ -198,7 +189,21 @@ export class Editor {
       user: () => this.#user,
       progress: () => this.#progress(),
     });
-    this.#listen(host, pointer);
+    listen({
+      host,
+      state,
+      pointer,
+      toolbox: this.#toolbox,
+      frame: this.#frame,
+      sync: this.#sync,
+      drawings: this.#drawings,
+      going: this.#going,
+      reviewing: this.#reviewing,
+      perform: this.#perform,
+      send,
+      say: this.#say,
+      progress: () => this.#progress(),
+    });
     hint(tool().name);
     this.#progress();
     expose(host, {
@@ -216,48 +221,6 @@ export class Editor {
   /** @type {(token: string) => void} */
   offer(token) {
     this.#transport.offer(token);
-  }
-
-  /** @type {(host: HTMLElement, pointer: Pointer) => void} */
-  #listen(host, pointer) {
-    const state = this.#state;
-    listenToKeys({
-      perform: this.#perform,
-      state,
-      pointer,
-      sweep: (held) => this.#toolbox.sweep(held),
-      pressed: (at) => this.#frame.causedBy(at, "key"),
-    });
-    listenToPanel({
-      perform: this.#perform,
-      use: (name) => this.#toolbox.use(name),
-      open: (image, select) => this.#going.open(image, select),
-      takeBack: (image, changeSet) => {
-        state.commitDrafts();
-        this.#sync.takeBack(image, changeSet);
-      },
-      send: (message) => void this.#send(message),
-      compare: () => void (this.#reviewing.review.on = true),
-    });
-    listenToTags(() => state.image, (tag) => void this.#send(tag), this.#say);
-    listenToArcs(state);
-    const legend = legendIn(host);
-    state.look.changed.listen((_, { colouring }) => legend(colouring));
-    followView(state.layers, state.look);
-    zoomButtonsIn(host, this.#perform);
-    nameFields();
-    takePhotos(host, this.#say);
-    bringFocusBack(host);
-    showProgress(state);
-    keepPlace(state, (image, cap) => this.#going.open(image, cap));
-    state.signals.selection.listen(() => this.#going.tellSelection());
-    state.signals.nudge.listen(() => this.#progress());
-    new ResizeObserver(([entry]) => state.viewport.resize(entry.contentRect)).observe(host);
-    window.addEventListener("beforeunload", (event) => {
-      this.#toolbox.leave();
-      if (!this.#sync.kept || !this.#drawings.kept) event.preventDefault();
-    });
-    window.addEventListener("pagehide", () => this.#drawings.write());
   }
 
   /** @type {(message: ToServer) => boolean} */

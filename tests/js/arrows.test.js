@@ -12,7 +12,7 @@ const EDITOR = path.resolve(import.meta.dirname, "../../static/editor");
 const DRAWING = `
   main
   editor
-  receiving
+  receiving  listening
   opening  performing  probe  going
   reviewing  repeating
   ui  input

@@ -33,6 +33,8 @@ const LEAST_SPREAD_PX = 2;
 const AROUND_PX = 24;
 /** How much of the outlines of checked caps is seen where only open ones are to stand out. */
 const FAINT = 0.35;
+/** Lines of open caps then, CSS pixels. */
+const OPEN_WIDTH = 2.5;
 /** From this many shapes on, lines are a device pixel wide: five times quicker to draw in software. */
 const MANY = 400;
 
@@ -110,6 +112,7 @@ function styleOf(shape, selected) {
 function paintGroup(context, view, shapes, how) {
   const { style, visible } = how;
   if (style === "checked" && !visible.checked) return paintFaintly(context, view, shapes, how);
+  if (isOpen(how)) fillShapes(context, view, shapes, FILLS.open);
   const large = shapes.filter((shape) => sizeOf(shape, view) >= SMALL_PX);
   const ignored = shapes.filter(({ cap }) => cap.ignored);
   hatch(context, view, ignored);
@@ -134,6 +137,11 @@ function paintGroup(context, view, shapes, how) {
     faded("centre", (shape) => strokeCentre(context, view, shape, style));
   for (const shape of large) if (shape.cap.doubtful && !visible.label) writeLabel(context, view, shape, "?");
   if (visible.label) faded("label", (shape) => writeLabel(context, view, shape, labelOf(shape)));
+}
+
+/** Whether these are open caps that are to stand out. @type {(how: How) => boolean} */
+function isOpen({ style, visible }) {
+  return !visible.checked && (style === "prediction" || style === "outline");
 }
 
 /** Nothing but the outlines. @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
@@ -170,15 +178,17 @@ function fillShapes(context, view, shapes, fill) {
 }
 
 /** @type {(context: Context, view: View, shapes: Shape[], how: How) => void} */
-function strokeOutlines(context, view, shapes, { style, fine, colouring }) {
+function strokeOutlines(context, view, shapes, how) {
+  const { style, fine, colouring } = how;
+  const usual = isOpen(how) ? OPEN_WIDTH : style === "ignored" ? 1 : 1.5;
   context.setLineDash(style === "prediction" ? [5, 4] : []);
   for (const shape of shapes) {
     const good = style === "ignored" || style === "selected" ? null : goodness(shape, colouring);
     const { colour, width } =
-      good === null ? { colour: COLOURS[style], width: style === "ignored" ? 1 : 1.5 } : lineOf(good);
+      good === null ? { colour: COLOURS[style], width: usual } : lineOf(good);
     if (style === "ignored") traceKnown(context, view, shape.cap);
     else traceVisible(context, view, shape);
-    if (fine && good === null) strokeShaded(context, colour);
+    if (fine && good === null && usual < OPEN_WIDTH) strokeShaded(context, colour);
     else strokeCased(context, { colour, width, casing: CASING });
   }
   context.setLineDash([]);

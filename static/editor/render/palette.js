@@ -41,6 +41,7 @@ export const FILLS = {
   checked: "rgba(69, 200, 255, 0.05)",
   selected: "rgba(69, 200, 255, 0.12)",
   prediction: "rgba(201, 184, 255, 0.16)",
+  open: "rgba(132, 60, 255, 0.45)",
   ignored: "rgba(196, 202, 210, 0.6)",
   mark: "rgba(255, 111, 181, 0.14)",
   uncertainty: "rgba(255, 138, 61, 0.28)",

@@ -25,7 +25,7 @@ def browser(serve: Callable[..., int], door: Door) -> httpx.Client:
 
 
 @pytest.mark.parametrize(
-    "path", ["/", "/name", "/photos/1/0", "/static/style.css", "/downloads/a.zip", "/?token="]
+    "path", ["/", "/name", "/photos/1/0", "/static/styles/editor.css", "/downloads/a.zip", "/?token="]
 )
 def test_nothing_is_served_to_a_browser_that_was_not_led_in(browser: httpx.Client, path: str) -> None:
     answer = browser.get(path)

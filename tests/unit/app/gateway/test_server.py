@@ -154,7 +154,7 @@ def test_the_relay_passes_visers_close_code_on(shared_port: int) -> None:
 
 
 def test_a_page_of_an_older_version_gets_todays_files_but_may_not_keep_them(shared_port: int) -> None:
-    script = get(shared_port, "/static/0123456789abcdef/panel.css")
+    script = get(shared_port, "/static/0123456789abcdef/styles/panel.css")
     assert script.status_code == 200
     assert script.headers["cache-control"] == "no-cache"
     assert get(shared_port, "/viser/0123456789abcdef/client.js").status_code == 404
@@ -170,7 +170,7 @@ def test_nothing_outside_static_is_served(shared_port: int) -> None:
 
 
 def test_every_answer_carries_the_security_headers(shared_port: int) -> None:
-    asked = [("/", {}), ("/healthz", {}), (static_files().url("panel.css"), {}), ("/nothing", {})]
+    asked = [("/", {}), ("/healthz", {}), (static_files().url("styles/panel.css"), {}), ("/nothing", {})]
     for path, sent in [*asked, ("/photos/1/0", {}), ("/", {"Host": "evil.example"})]:
         headers = get(shared_port, path, **sent).headers
         assert headers["x-content-type-options"] == "nosniff"
