@@ -34,7 +34,8 @@ Along an edge whose normal is (nx, ny) their distance to it is spread evenly ove
 class Silhouette:
     """The visible part of one cap, 1 where it is seen; the first pixel is column ``left``, row ``top``.
 
-    Two of the same pixels, of which the same is thought and said, are equal. A mask is never changed in place.
+    Two of the same pixels, of which the same is thought and said, are equal. A mask is never changed in
+    place.
     """
 
     mask: NDArray[np.uint8]
