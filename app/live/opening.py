@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from msgspec.structs import replace
 from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
@@ -74,7 +75,8 @@ def _show(session: Session, found: _Found, *, select: str | None) -> None:
     session.selection = Selection(annotations=(select,) if select else ())
     session.send(
         Show(
-            contents=found.contents,
+            # What is held likely of whole outlines is for the server's fits, and as long as all outlines.
+            contents=replace(found.contents, likely=[]),
             photo=photo_address(found.contents.image),
             select=select,
             position=session.position,

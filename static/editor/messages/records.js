@@ -199,6 +199,7 @@
  * @property {Prediction[]} predictions
  * @property {Run | null} run
  * @property {string[]} unchecked
+ * @property {unknown[]} [likely]
  */
 
 export {};
