@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urllib.parse import urlencode
+
 from fairyring.storage.records import Image
 
 PHOTOS = "/photos/{image:int}/{content}"
@@ -10,6 +12,9 @@ UPLOADS = "/uploads"
 """Route to which the browser sends photos."""
 DOWNLOADS = "/downloads/{name}"
 """Route of the files that jobs have made."""
+
+REVIEWS = "/review/{what}"
+"""Route of a review to print, and of its plots and tables to keep."""
 
 
 def content_of(image: Image) -> str:
@@ -20,6 +25,13 @@ def content_of(image: Image) -> str:
 def photo_address(image: Image) -> str:
     """Where the browser finds a photo."""
     return f"/photos/{image.id}/{content_of(image)}"
+
+
+def review_address(what: str, *, only_sure: bool = False, image: int | None = None) -> str:
+    """Where the browser finds a review, one of its plots, or a table of it: of all images, or of one."""
+    asked = {"sure": "1" if only_sure else None, "image": image}
+    query = urlencode({name: value for name, value in asked.items() if value is not None})
+    return f"/review/{what}?{query}" if query else f"/review/{what}"
 
 
 def download_address(file_name: str) -> str:

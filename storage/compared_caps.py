@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 from msgspec import Struct, structs
 from sqlalchemy import ColumnElement, Connection, and_, delete, func, insert, select, update
 
-from fairyring.storage.db.schema import compared_cap, comparison, image
+from fairyring.storage.db.schema import annotation, compared_cap, comparison, image
 
 Kind = Literal["worst", "missed", "extra", "doubtful", "unsure", "ignored"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -112,6 +112,17 @@ def list_caps(
         .order_by(excess.desc().nulls_last(), _C.iou.asc().nulls_last(), image.c.sort_name, _C.sequence)
         .offset(offset)
         .limit(limit)
+    )
+    return [_figures_of(row) for row in rows]
+
+
+def caps_of_image(connection: Connection, run_id: int, image_id: int) -> list[CapFigures]:
+    """What a comparison says of the caps of one image, in the order in which they were made."""
+    rows = connection.execute(
+        select(compared_cap)
+        .outerjoin(annotation, annotation.c.uid == _C.annotation)
+        .where(_C.run == run_id, _C.image == image_id)
+        .order_by(annotation.c.id.nulls_last(), _C.sequence)
     )
     return [_figures_of(row) for row in rows]
 

@@ -6,13 +6,18 @@ from collections.abc import Sequence
 from typing import Any, Literal
 
 from msgspec import Struct, structs
-from sqlalchemy import ColumnElement, Connection, delete, func, insert, select
+from sqlalchemy import ColumnElement, Connection, delete, func, insert, null, select
 
 from fairyring.storage.compared_caps import CapFigures, store_caps
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.schema import comparison, image
+from fairyring.storage.review_figures import sure_figures
 
 ComparisonSort = Literal["name", "caps", "marked", "missed", "extra", "cdr_mean", "cdr_worst"]
+
+
+SURE = ("matched", "missed", "extra", "measured", "cdr_mean", "cdr_worst", "floor_mean", "dx", "dy")
+"""The figures that are others where doubtful caps and unsure marks are left out."""
 
 
 class Comparison(Struct, frozen=True, kw_only=True):
@@ -82,16 +87,30 @@ def list_comparisons(
     *,
     sort: ComparisonSort = "cdr_worst",
     descending: bool = True,
+    only_sure: bool = False,
     offset: int = 0,
     limit: int = 50,
 ) -> ComparisonPage:
-    """The review of a run. Images without a figure come last either way."""
-    column: ColumnElement[Any] = image.c.sort_name if sort == "name" else comparison.c[sort]
+    """The review of a run. Images without a figure come last either way.
+
+    ``only_sure`` has the figures be those without doubtful caps and unsure marks, which name no worst cap.
+    """
+    figures: dict[str, ColumnElement[Any]] = dict(comparison.c.items())
+    source = comparison.join(image, image.c.id == comparison.c.image)
+    if only_sure:
+        sure = sure_figures(run_id)
+        source = source.outerjoin(sure, sure.c.image == comparison.c.image)
+        figures |= {"worst": null(), **{name: sure.c[name] for name in SURE}}
+    column: ColumnElement[Any] = image.c.sort_name if sort == "name" else figures[sort]
     directed = (column.desc() if descending else column.asc()).nulls_last()
     of_run = comparison.c.run == run_id
     statement = (
-        select(comparison, image.c.file_name, (image.c.version != comparison.c.version).label("stale"))
-        .join(image, image.c.id == comparison.c.image)
+        select(
+            *(figures[name].label(name) for name in Comparison.__struct_fields__),
+            image.c.file_name,
+            (image.c.version != comparison.c.version).label("stale"),
+        )
+        .select_from(source)
         .where(of_run)
         .order_by(directed, image.c.sort_name, image.c.id)
         .offset(offset)

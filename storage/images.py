@@ -52,6 +52,8 @@ class ImageRow(Struct, frozen=True, kw_only=True):
     """Predictions of the latest run that saw the image."""
     cdr_mean: float | None
     """Mean CDR of the latest comparison, percent; it may be out of date."""
+    floor_mean: float | None
+    """Mean CDR, percent, that its marks have by themselves."""
     cdr_worst: float | None
     worst: str | None
     """Uid of the annotation with the worst CDR."""
@@ -81,7 +83,9 @@ def list_images(connection: Connection, which: ImageFilter, *, offset: int = 0, 
     ids = list(connection.execute(_ordered(which, _condition(which)).offset(offset).limit(limit)).scalars())
     latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
     found: AnySelect = (
-        select(image, comparison.c.cdr_mean, comparison.c.cdr_worst, comparison.c.worst)
+        select(
+            image, comparison.c.cdr_mean, comparison.c.floor_mean, comparison.c.cdr_worst, comparison.c.worst
+        )
         .select_from(image.outerjoin(comparison, latest))
         .where(image.c.id.in_(ids))
     )
@@ -227,6 +231,7 @@ def _row(row: AnyRow) -> ImageRow:
         ignored=row.ignored,
         predicted=row.predicted,
         cdr_mean=row.cdr_mean,
+        floor_mean=row.floor_mean,
         cdr_worst=row.cdr_worst,
         worst=row.worst,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,6 +25,14 @@ def review(
     report: Annotated[
         Path | None, typer.Option(metavar="OUT.html", help="Write a page with plots and pictures as well.")
     ] = None,
+    run: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="A run, by name or number; else the latest."),
+    ] = None,
+    against: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Another run, put beside it on the images both saw.")
+    ] = None,
+    images: Annotated[str, typer.Option(metavar="GLOB", help="Only images of these file names.")] = "*",
     sure: Annotated[
         bool, typer.Option("--sure", help="Leave out doubtful caps, and marks that hardly tell a centre.")
     ] = False,
@@ -32,31 +41,68 @@ def review(
     """Compare the caps that people marked with the latest predictions: CDR, its floor, and what was missed.
 
     Images that nobody has worked on do not count; they are named. The floor is the CDR that the marks have by
-    themselves, from how many points they have and where on the rim these lie.
+    themselves: from caps that were marked again, else from how many points they have and where these lie.
 
-    Example: `fairyring review beds --report review.html`
+    Example: `fairyring review beds --run after --against before --report review.html`
     """
-    from fairyring.app.review.figures import figures_of, review_of
+    from fairyring.app.review.figures import figures_of
+    from fairyring.app.review.two_runs import side_by_side
     from fairyring.storage.project import open_project
 
+    wanted = _Wanted(run=run, against=against, images=images, sure=sure)
     with open_project(folder) as project:
-        with steps_shown() as progress:
-            found = review_of(project, only_sure=sure, progress=progress)
+        found, before = _reviews(project, wanted)
         if report is not None:
-            _write_report(project, found, report)
+            _write_report(project, found, report, before)
     figures = figures_of(found)
+    if before is not None:
+        figures |= {"side_by_side": side_by_side(before, found)}
     if as_json:
         typer.echo(json.dumps(figures))
         return
-    print_rows(f"review of {folder}", [_line("all", figures), *_group_lines(figures)], as_json=False)
+    lines = [_line("all", figures), *_group_lines(figures)]
+    if before is not None:
+        lines.insert(0, _line(f"before: {against}", figures_of(before)))
+    print_rows(f"review of {folder}", lines, as_json=False)
     if found.untouched:
         typer.echo(f"{len(found.untouched)} images that nobody has worked on are not counted.", err=True)
 
 
-def _write_report(project: Project, found: Review, out: Path) -> None:
+@dataclass(frozen=True, kw_only=True)
+class _Wanted:
+    """What is to be reviewed."""
+
+    run: str | None
+    against: str | None
+    images: str
+    sure: bool
+
+
+def _reviews(project: Project, wanted: _Wanted) -> tuple[Review, Review | None]:
+    """The review, and that of the other run on the same images."""
+    from fairyring.app.review.figures import review_of
+    from fairyring.app.review.two_runs import reviews_of_both
+    from fairyring.storage.predictions import latest_run
+    from fairyring.storage.runs import require_run
+
+    with project.read() as connection:
+        run = require_run(connection, wanted.run) if wanted.run is not None else None
+        other = require_run(connection, wanted.against) if wanted.against is not None else None
+        latest = latest_run(connection)
+    with steps_shown() as progress:
+        if other is not None and latest is not None:
+            before, found = reviews_of_both(
+                project, other, run or latest, images=wanted.images, only_sure=wanted.sure, progress=progress
+            )
+            return found, before
+        found = review_of(project, run=run, images=wanted.images, only_sure=wanted.sure, progress=progress)
+        return found, None
+
+
+def _write_report(project: Project, found: Review, out: Path, before: Review | None) -> None:
     from fairyring.app.report.page import page_of
 
-    write_bytes(page_of(project, found).encode(), out)
+    write_bytes(page_of(project, found, before=before).encode(), out)
     typer.echo(f"Wrote {out}", err=True)
 
 

@@ -21,13 +21,14 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
-from fairyring.app.addresses import DOWNLOADS, PHOTOS, UPLOADS
+from fairyring.app.addresses import DOWNLOADS, PHOTOS, REVIEWS, UPLOADS
 from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
 from fairyring.app.gateway.bounded_sockets import sockets_of_one_server
 from fairyring.app.gateway.downloads import downloads_of
 from fairyring.app.gateway.hidden_viser import Upstream, start_viser, stop_viser
 from fairyring.app.gateway.login import name_page
 from fairyring.app.gateway.photos import clear_unfinished, photos_of
+from fairyring.app.gateway.reviews import reviews_of
 from fairyring.app.gateway.security import LOOPBACK, Guard
 from fairyring.app.gateway.socket import editor_of
 from fairyring.app.gateway.static_files import static_file
@@ -136,6 +137,7 @@ def make_app(workspace: Workspace, *, door: Door | None) -> ASGIApp:
             ),
             Route(UPLOADS, uploads_of(workspace), methods=["POST"]),
             Route(DOWNLOADS, downloads_of(workspace.project)),
+            Route(REVIEWS, reviews_of(workspace.project)),
             Route("/healthz", _healthz),
             Route("/static/{version}/{path:path}", static_file),
             Route("/viser/{version}/{name}", viser_file),

@@ -19,7 +19,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ListPosition
 from fairyring.storage.records import Image, ImageContents
 
-CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "queue", "review")
+CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "queue", "review", "cap_plot")
 """The parts of the panel that depend on the image on screen."""
 
 

@@ -44,7 +44,7 @@ async def keep_again(workspace: Workspace, session: Session, made: MarkedAgain) 
     """Keeps a second mark, and tells the tab once it is on disk. Raises FairyringError where it is none."""
     kept = await anyio.to_thread.run_sync(partial(_keep, workspace, made, user=session.user))
     session.send(KeptAgain(id=kept.id))
-    workspace.follow("desk", "review", "gallery")
+    workspace.follow("desk", "review", "gallery", "plots", "cap_plot")
 
 
 def question_about(due: DueRepeat, image: Image, cap: Annotation) -> MarkAgain:

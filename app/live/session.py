@@ -65,6 +65,8 @@ class Session:
     """The filter and order of the image list, which decide the next image."""
     gallery: Kind = "worst"
     """Which caps of all images the review shows."""
+    only_sure: bool = False
+    """The review's figures leave out doubtful caps and marks that hardly determine a centre."""
     queue: tuple[int, ...] = ()
     """The images that a reviewer goes through, which then decide the next image."""
     position: int = 0

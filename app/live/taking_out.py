@@ -32,7 +32,7 @@ async def take_out_shown(workspace: Workspace, session: Session) -> None:
     for tab in workspace.tabs.others_on(image.id):
         tab.caps = None
         await reopen(workspace, tab, next_of[tab.client.client_id])
-    workspace.refresh(*CHANGES_IMAGE, "review")
+    workspace.refresh(*CHANGES_IMAGE, "gallery", "plots")
 
 
 async def put_back_last(workspace: Workspace, session: Session) -> None:
@@ -42,7 +42,7 @@ async def put_back_last(workspace: Workspace, session: Session) -> None:
         return
     await anyio.to_thread.run_sync(put_back, workspace.project, kept[:1])
     await open_image(workspace, session, kept[0].number)
-    workspace.refresh(*CHANGES_IMAGE, "review")
+    workspace.refresh(*CHANGES_IMAGE, "gallery", "plots")
 
 
 async def leave_missing(workspace: Workspace) -> None:

@@ -23,6 +23,8 @@ from fairyring.model.progress import Progress
 from fairyring.storage.project import Project
 
 Found = TypeVar("Found")
+FIGURES = ("review", "gallery", "plots", "cap_plot")
+"""The parts of the panel that show what comparisons say."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +45,7 @@ class Workspace:
         """Compares images with their predictions after edits."""
         return Reviewer(
             self.project,
-            compared=lambda _image: self.follow("review", "gallery", "images"),
+            compared=lambda _image: self.follow(*FIGURES, "images"),
             run=self.crew.patient.run,
         )
 
@@ -77,7 +79,7 @@ class Workspace:
         self.refresh("status", "jobs")
 
     def _show_end(self) -> None:
-        self.refresh("status", "jobs", "predict", "runs", "learning", "review", "gallery", "images")
+        self.refresh("status", "jobs", "predict", "runs", "learning", *FIGURES, "images")
 
     def read_ahead(self, image_ids: Sequence[int]) -> None:
         """Loads images that somebody is likely to open next, in the background."""

@@ -14,7 +14,7 @@ from fairyring.app.live.taking_out import put_back_last, take_out_shown
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import splits
 from fairyring.app.panels.callbacks import Redraw, person_did
-from fairyring.app.panels.markup import Markup, element
+from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.panels.status import STATUS_OF_WORD, STATUS_WORDS
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.model.splits import Split
@@ -141,7 +141,7 @@ def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
         element("th", width=68),
         element("th", "Image"),
         element("th", "Caps", class_="fr-number", width=48),
-        element("th", "CDR %", class_="fr-number", width=52),
+        element("th", "CDR %", class_="fr-number", width=64),
     )
     rows = (_row(row, current=row.image.id == current) for row in page.rows)
     return element(
@@ -165,9 +165,18 @@ def _row(row: ImageRow, *, current: bool) -> Markup:
         element("td", thumbnail),
         element("td", name, element("div", status, " ", element("span", facts, class_="fr-quiet"))),
         element("td", caps, class_="fr-number"),
-        element("td", "–" if row.cdr_mean is None else f"{row.cdr_mean:.2f}", class_="fr-number"),
+        element("td", *_cdr(row), class_="fr-number"),
         data_fairyring_open=image.id,
         aria_current="true" if current else None,
         tabindex=0,
         role="button",
     )
+
+
+def _cdr(row: ImageRow) -> tuple[Content, ...]:
+    """Mean CDR with the floor of the marks below it."""
+    if row.cdr_mean is None:
+        return ("–",)
+    floor = "–" if row.floor_mean is None else f"{row.floor_mean:.2f}"
+    told = "What the marks are off by themselves"
+    return f"{row.cdr_mean:.2f}", element("div", f"floor {floor}", class_="fr-quiet", title=told)

@@ -13,6 +13,7 @@ from fairyring.app.panels import (
     jobs,
     layers,
     learning,
+    plots,
     predict,
     queue,
     review,
@@ -23,7 +24,7 @@ from fairyring.app.panels import (
 from fairyring.app.panels.callbacks import Redrawing
 
 ALL = (
-    *("status", "cap", "images", "history", "queue", "desk", "gallery", "review"),
+    *("status", "review", "gallery", "images", "cap", "history", "queue", "desk", "cap_plot", "plots"),
     *("predict", "runs", "learning", "jobs"),
 )
 """The parts that are drawn, in that order."""
@@ -46,14 +47,15 @@ def build_panel(workspace: Workspace, session: Session) -> None:
         with pages.add_tab("Review"):
             parts["queue"] = queue.build(workspace, session)
             parts["desk"] = desk.build(workspace, session)
-            parts["gallery"] = gallery.build(workspace, session)
             parts["review"] = review.build(workspace, session)
+            parts["gallery"] = gallery.build(workspace, session)
+            parts |= plots.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)
             parts["runs"] = runs.build(workspace, session)
             parts["learning"] = learning.build(workspace, session)
             parts["jobs"] = jobs.build(workspace, session)
-        redrawing = Redrawing(parts)
+        redrawing = Redrawing({part: parts[part] for part in ALL})
         session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
         session.has_panel = True
     session.refresh(*ALL)

@@ -10,9 +10,12 @@ from typing import Any
 
 from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.report.paper_tables import paper_tables
 from fairyring.app.report.pictures import close_ups
-from fairyring.app.report.plots import cdr_by_image, shifts
-from fairyring.app.review.figures import Review, figures_of, worst_caps
+from fairyring.app.report.plots import Bar, cdr_bars, shifts
+from fairyring.app.report.tables import number, percent, table
+from fairyring.app.report.two_runs import two_runs
+from fairyring.app.review.figures import Review, ReviewedCap, figures_of, worst_caps
 from fairyring.app.static_folder import STATIC
 from fairyring.storage.project import Project
 
@@ -22,6 +25,8 @@ ABOUT = (
     "shares of the cap's diameter stand beside it. The floor is the CDR that the marks have by themselves, "
     "as no hand places a point exactly: a network near it cannot be told to be wrong."
 )
+MOST_CAP_BY_CAP = 6
+"""Of so many images at most the CDR of each cap is plotted; of more there is a bar for each image."""
 GROUP_TITLES = {
     "size": "By size",
     "visibility": "By how much is in sight",
@@ -31,8 +36,14 @@ GROUP_TITLES = {
 }
 
 
-def page_of(project: Project, review: Review) -> str:
-    """The page, which says nothing that a second run would not say again."""
+def page_of(project: Project, review: Review, *, before: Review | None = None) -> str:
+    """The page, which says nothing that a second call would not say again.
+
+    Args:
+        project: whose photos are shown.
+        review: what is reported.
+        before: the same images as another run saw them, to be put beside it; None for none.
+    """
     figures = figures_of(review)
     page = element(
         "html",
@@ -47,11 +58,16 @@ def page_of(project: Project, review: Review) -> str:
             element("h1", f"Review of {project.name}"),
             _totals(figures),
             element("p", ABOUT, class_="quiet"),
+            two_runs(before, review) if before is not None else None,
             element("h2", "CDR by image"),
-            cdr_by_image(figures["images"]),
+            cdr_bars(_bars_of_images(figures["images"]), what="Mean CDR by image"),
             _images(figures["images"]),
+            *_cap_by_cap(review),
+            paper_tables(project, review),
             element("h2", "Where predicted centres lie"),
-            shifts(review.caps),
+            shifts([(cap.dx, cap.dy) for cap in (c.measured.error for c in review.caps) if cap]),
+            element("h2", "What people are off by themselves"),
+            _marked_again(figures["marked_again"]),
             *(_group(title, figures["groups"][kind]) for kind, title in GROUP_TITLES.items()),
             element("h2", "Worst caps of all images"),
             _gallery(project, review),
@@ -65,13 +81,13 @@ def page_of(project: Project, review: Review) -> str:
 
 def _totals(figures: dict[str, Any]) -> Markup:
     interval = figures["intervals"]["cdr"]
-    mean = _number(figures["cdr"]["mean"])
-    told = mean if interval is None else f"{mean} ({_number(interval['low'])} to {_number(interval['high'])})"
+    mean = number(figures["cdr"]["mean"])
+    told = mean if interval is None else f"{mean} ({number(interval['low'])} to {number(interval['high'])})"
     shown: tuple[tuple[str, Content], ...] = (
         ("mean CDR, %", told),
-        ("floor of the marks, %", _number(figures["floor"]["cdr_mean"])),
-        ("mean error, px", _number(figures["px"]["mean"], 2)),
-        ("error / diameter, %", _percent(figures["relative"]["mean"])),
+        ("floor of the marks, %", number(figures["floor"]["cdr_mean"])),
+        ("mean error, px", number(figures["px"]["mean"], 2)),
+        ("error / diameter, %", percent(figures["relative"]["mean"])),
         ("caps matched", figures["matched"]),
         ("missed", figures["missed"]),
         ("extra", figures["extra"]),
@@ -90,16 +106,66 @@ def _images(images: Sequence[dict[str, Any]]) -> Markup:
         (
             row["file_name"],
             STATUS_WORDS[row["status"]],
-            _number(row["cdr"]["mean"]),
-            _number(row["floor"]["cdr_mean"]),
-            _number(row["px"]["mean"], 2),
+            number(row["cdr"]["mean"]),
+            number(row["floor"]["cdr_mean"]),
+            number(row["px"]["mean"], 2),
             row["matched"],
             row["missed"],
             row["extra"],
         )
         for row in images
     ]
-    return _table(head, rows)
+    return table(head, rows)
+
+
+def _bars_of_images(images: Sequence[dict[str, Any]]) -> list[Bar]:
+    """The highest first."""
+    bars = [
+        Bar(name=row["file_name"], cdr=row["cdr"]["mean"], floor=row["floor"]["cdr_mean"])
+        for row in images
+        if row["cdr"]["mean"] is not None
+    ]
+    return sorted(bars, key=lambda bar: bar.cdr, reverse=True)
+
+
+def _cap_by_cap(review: Review) -> list[Markup]:
+    """CDR of each cap of each of a few images, as the paper's Figure 19."""
+    if len(review.images) > MOST_CAP_BY_CAP:
+        return []
+    plots = [element("h2", "CDR of each cap")]
+    for place, image in enumerate(review.images):
+        caps = [cap for cap in review.caps if cap.measured.page == place and cap.measured.error]
+        plots.append(cdr_bars(_bars_of_caps(caps), what=f"{image.file_name}: CDR of each cap"))
+    return plots
+
+
+def _bars_of_caps(caps: Sequence[ReviewedCap]) -> list[Bar]:
+    errors = [(cap, cap.measured.error) for cap in caps]
+    return [
+        Bar(name=f"cap {nth}", cdr=error.cdr, floor=cap.floor)
+        for nth, (cap, error) in enumerate(errors, start=1)
+        if error
+    ]
+
+
+def _marked_again(found: dict[str, Any]) -> Markup:
+    """The floor from caps that were marked twice, of everybody and by kind."""
+    if not found["count"]:
+        return element(
+            "p", "No cap was marked again, so floors are those of the marks' geometry.", class_="quiet"
+        )
+    rows = [
+        (f"{kind.replace('_', ' ')}: {name.replace('_', ' ')}", *_floor_row(floor))
+        for kind, values in found["by"].items()
+        for name, floor in values.items()
+    ]
+    told = f"From caps marked twice; a person's or a kind's own count from {found['enough']} on."
+    whole = table(("", "Floor %", "95 of 100", "Caps"), [("all", *_floor_row(found["all"])), *rows])
+    return element("section", element("p", told, class_="quiet"), whole)
+
+
+def _floor_row(floor: dict[str, Any]) -> tuple[Content, ...]:
+    return number(floor["mean"]), f"{number(floor['low'])}–{number(floor['high'])}", floor["count"]
 
 
 def _group(title: str, values: dict[str, dict[str, Any]]) -> Markup | None:
@@ -109,17 +175,17 @@ def _group(title: str, values: dict[str, dict[str, Any]]) -> Markup | None:
     rows = [
         (
             value.replace("_", " "),
-            _number(some["cdr"]["mean"]),
-            _number(some["cdr"]["median"]),
-            _number(some["cdr"]["p95"]),
-            _number(some["floor"]["cdr_mean"]),
-            _number(some["px"]["mean"], 2),
+            number(some["cdr"]["mean"]),
+            number(some["cdr"]["median"]),
+            number(some["cdr"]["p95"]),
+            number(some["floor"]["cdr_mean"]),
+            number(some["px"]["mean"], 2),
             some["matched"],
             some["missed"],
         )
         for value, some in values.items()
     ]
-    return element("section", element("h2", title), _table(head, rows))
+    return element("section", element("h2", title), table(head, rows))
 
 
 def _gallery(project: Project, review: Review) -> Markup:
@@ -130,8 +196,8 @@ def _gallery(project: Project, review: Review) -> Markup:
     figures = []
     for cap, address in zip(worst, close_ups(project, worst), strict=True):
         row = cap.measured.row
-        told = f"{row.image}: CDR {_number(row.cdr)} %, {_number(row.px, 1)} px"
-        told += "" if cap.floor is None else f", floor {_number(cap.floor)} %"
+        told = f"{row.image}: CDR {number(row.cdr)} %, {number(row.px, 1)} px"
+        told += "" if cap.floor is None else f", floor {number(cap.floor)} %"
         picture = element("img", src=address, alt=told) if address else element("p", "The photo is gone.")
         figures.append(element("figure", picture, element("figcaption", told)))
     return element("div", element("p", legend, class_="quiet"), element("div", *figures, class_="gallery"))
@@ -166,19 +232,3 @@ def _download(name: str, head: Sequence[str], rows: Sequence[Sequence[Any]]) -> 
     writer.writerows(rows)
     data = base64.b64encode(written.getvalue().encode()).decode()
     return element("a", name, download=name, href=f"data:text/csv;base64,{data}")
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[Content]]) -> Markup:
-    return element(
-        "table",
-        element("thead", element("tr", *(element("th", title) for title in head))),
-        element("tbody", *(element("tr", *(element("td", value) for value in row)) for row in rows)),
-    )
-
-
-def _number(value: float | None, decimals: int = 3) -> str:
-    return "–" if value is None else f"{value:.{decimals}f}"
-
-
-def _percent(share: float | None) -> str:
-    return "–" if share is None else f"{100 * share:.2f}"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.review.figures import ReviewedCap
+from fairyring.model.evaluate.spread import axes_of_spread
 
 WIDTH, HEIGHT = 720, 260
 LEFT, BOTTOM = 48, 28
@@ -16,31 +17,38 @@ LEFT, BOTTOM = 48, 28
 SIDE = 320
 WIDEST = 48
 """Of a bar."""
-MOST_IMAGES = 120
+MOST_BARS = 120
 """More bars than that cannot be told apart."""
 TICKS = 4
 
 
-def cdr_by_image(images: Sequence[dict[str, Any]]) -> Markup:
-    """A bar for the mean CDR of each image, highest first, with the floor of its marks as a line across."""
-    measured = [row for row in images if row["cdr"]["mean"] is not None]
-    shown = sorted(measured, key=lambda row: row["cdr"]["mean"], reverse=True)[:MOST_IMAGES]
+@dataclass(frozen=True, kw_only=True)
+class Bar:
+    """The CDR of an image or of a cap, and of its marks alone; percent."""
+
+    name: str
+    cdr: float
+    floor: float | None
+
+
+def cdr_bars(measured: Sequence[Bar], *, what: str) -> Markup:
+    """A bar for each CDR in the order given, the floor of its marks a line across; ``what`` they are of."""
+    shown = measured[:MOST_BARS]
     if not shown:
         return element("p", "No marked cap was predicted, so there is nothing to plot.")
-    top = 1.05 * max(row["cdr"]["mean"] for row in shown)
+    top = 1.05 * max(max(each.cdr, each.floor or 0.0) for each in shown) or 1.0
     step = min((WIDTH - LEFT) / len(shown), WIDEST)
     bars = [_bar(row, LEFT + nth * step, step, top) for nth, row in enumerate(shown)]
-    left_out = "" if len(shown) == len(measured) else f" The {MOST_IMAGES} highest of {len(measured)}."
-    caption = f"Mean CDR by image, percent; the dark line is what the marks themselves are off by.{left_out}"
+    left_out = "" if len(shown) == len(measured) else f" The first {MOST_BARS} of {len(measured)}."
+    caption = f"{what}, percent; the dark line is what the marks themselves are off by.{left_out}"
     return _figure(caption, WIDTH, HEIGHT, *_scale(top), *bars)
 
 
-def shifts(caps: Sequence[ReviewedCap]) -> Markup:
+def shifts(found: Sequence[tuple[float, float]]) -> Markup:
     """A dot for each cap where its predicted centre lies from the marked one; the ellipse holds 95 of 100."""
-    errors = [cap.measured.error for cap in caps if cap.measured.error]
-    if len(errors) < 3:
+    if len(found) < 3:
         return element("p", "Too few marked caps were predicted to show how centres shift.")
-    moves = np.array([(error.dx, error.dy) for error in errors])
+    moves = np.array(found)
     reach = 1.1 * max(float(np.quantile(np.abs(moves), 0.98)), 0.1)
     scale = SIDE / 2 / reach
     inside = moves[(np.abs(moves) <= reach).all(axis=1)]
@@ -72,9 +80,9 @@ def _figure(caption: str, width: int, height: int, *drawn: Markup) -> Markup:
     return element("figure", svg, element("figcaption", caption))
 
 
-def _bar(row: dict[str, Any], x: float, step: float, top: float) -> Markup:
-    mean, floor = row["cdr"]["mean"], row["floor"]["cdr_mean"]
-    told = f"{row['file_name']}: CDR {mean:.3f} %" + ("" if floor is None else f", floor {floor:.3f} %")
+def _bar(row: Bar, x: float, step: float, top: float) -> Markup:
+    mean, floor = row.cdr, row.floor
+    told = f"{row.name}: CDR {mean:.3f} %" + ("" if floor is None else f", floor {floor:.3f} %")
     tall, wide = _height(mean, top), max(step - 2, 1)
     bar = element(
         "rect", x=round(x, 1), y=round(HEIGHT - BOTTOM - tall, 1), width=round(wide, 1), height=round(tall, 1)
@@ -106,9 +114,9 @@ def _at(value: float, scale: float) -> float:
 
 
 def _ellipse(moves: np.ndarray[Any, np.dtype[np.float64]], scale: float) -> Markup:
-    """Where 95 of 100 lie if they scatter normally: 2.448 standard deviations along each of two axes."""
-    values, vectors = np.linalg.eigh(np.cov(moves.T))
-    radii = 2.448 * np.sqrt(np.maximum(values, 0)) * scale
+    """Where 95 of 100 lie if they scatter normally."""
+    radii, vectors = axes_of_spread(moves)
+    radii = radii * scale
     angle = float(np.degrees(np.arctan2(vectors[1, 1], vectors[0, 1])))
     x, y = (_at(float(mean), scale) for mean in moves.mean(axis=0))
     return element(

@@ -6,7 +6,7 @@ A figure without its floor would make a network look wrong by what is the annota
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,7 +24,7 @@ from fairyring.model.evaluate.pages import Page
 from fairyring.model.evaluate.repeated_marks import RepeatedMark
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.project import Project
-from fairyring.storage.records import Image
+from fairyring.storage.records import Image, Run
 
 MOST_WORST = 24
 """How many of the worst caps are listed."""
@@ -43,11 +43,18 @@ class ReviewedCap:
     is_unsure: bool = False
     is_doubtful: bool = False
 
+    @property
+    def key(self) -> tuple[int, int | None]:
+        """Which cap it is among those of a review: the place of its image, and its own there."""
+        return self.measured.page, self.measured.truth
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Review:
     """What a reviewer looks at."""
 
+    run: Run | None
+    """Whose predictions; None for the latest of each image."""
     images: list[Image]
     """Those somebody worked on, by name."""
     pages: list[Page]
@@ -61,35 +68,52 @@ class Review:
     """Caps that somebody marked twice."""
 
 
-def review_of(project: Project, *, only_sure: bool = False, progress: Progress = silent) -> Review:
-    """Compares every image that somebody worked on with the latest predictions of it.
+def review_of(
+    project: Project,
+    *,
+    run: Run | None = None,
+    images: str = "*",
+    among: Container[int] | None = None,
+    only_sure: bool = False,
+    progress: Progress = silent,
+) -> Review:
+    """Compares every image that somebody worked on with the latest predictions of it, or those of a run.
 
     Args:
         project: whose images.
+        run: whose predictions; None for the latest of each image.
+        images: only images of these file names, which may hold ``*`` and ``?``.
+        among: only images of these numbers; None for all.
         only_sure: leaves out caps that are doubtful, and those whose mark hardly determines a centre.
         progress: called once an image; what it raises ends the review.
 
     Raises:
         StoreError: the database cannot be read.
     """
-    images: list[Image] = []
+    found_images: list[Image] = []
     pages: list[Page] = []
     caps: list[ReviewedCap] = []
     left_out = 0
     fill_in(project, progress=progress)
     with project.read() as connection:
-        numbers, untouched = worked_on(connection)
+        numbers, untouched = worked_on(connection, images=images, among=among)
         repeats = repeated_marks(connection)
-        for done, seen in enumerate(reviewed_images(connection, numbers)):
+        for done, seen in enumerate(reviewed_images(connection, numbers, run=run)):
             progress(done, len(numbers), "Comparing caps with predictions")
             found = _caps_of(seen, place=len(pages))
             kept = [cap for cap in found if not (only_sure and (cap.is_unsure or cap.is_doubtful))]
             left_out += len(found) - len(kept)
-            images.append(seen.image)
+            found_images.append(seen.image)
             pages.append(structs.replace(seen.page, truths=[], predictions=[]))
             caps += kept
     return Review(
-        images=images, pages=pages, caps=caps, untouched=untouched, left_out=left_out, repeats=repeats
+        run=run,
+        images=found_images,
+        pages=pages,
+        caps=caps,
+        untouched=untouched,
+        left_out=left_out,
+        repeats=repeats,
     )
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 
 from sqlalchemy import Connection
 
@@ -12,7 +13,8 @@ from fairyring.app.caps.repeated import Marks, hands_known
 from fairyring.model.evaluate.pages import Page
 from fairyring.storage.contents import load_annotations, load_editors, load_predictions
 from fairyring.storage.images import ImageFilter, get_image, list_ids
-from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.records import Annotation, Image, Prediction, Run
+from fairyring.storage.runs import predictions_by
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,16 +30,21 @@ class ReviewedImage:
     """Whose they are, and how far off these people's marks are."""
 
 
-def worked_on(connection: Connection) -> tuple[list[int], list[str]]:
+def worked_on(
+    connection: Connection, *, images: str = "*", among: Container[int] | None = None
+) -> tuple[list[int], list[str]]:
     """The numbers of the images that somebody worked on, by name, and the file names of all others.
 
     Somebody worked on an image that has a cap, or of which somebody said that it is done. On any other one
-    every prediction would count as extra, though nobody has looked.
+    every prediction would count as extra, though nobody has looked. ``images`` and ``among`` are as for
+    ``figures.review_of``.
     """
     with_caps = set(list_ids(connection, ImageFilter(annotated=True)))
     numbers, others = [], []
     for number in list_ids(connection, ImageFilter()):
         image = get_image(connection, number)
+        if not fnmatchcase(image.file_name, images) or (among is not None and number not in among):
+            continue
         if number in with_caps or image.status != "new":
             numbers.append(number)
         else:
@@ -45,13 +52,19 @@ def worked_on(connection: Connection) -> tuple[list[int], list[str]]:
     return numbers, others
 
 
-def reviewed_images(connection: Connection, numbers: list[int]) -> Iterator[ReviewedImage]:
-    """The images of these numbers, one after the other."""
+def reviewed_images(
+    connection: Connection, numbers: list[int], *, run: Run | None = None
+) -> Iterator[ReviewedImage]:
+    """The images of these numbers, one after the other, with the predictions of a run, else the latest."""
     hands = hands_known(connection)
     for number in numbers:
         image = get_image(connection, number)
         annotations = load_annotations(connection, number)
-        predictions = load_predictions(connection, number)
+        predictions = (
+            load_predictions(connection, number)
+            if run is None
+            else predictions_by(connection, run.id, number)
+        )
         page = Page(
             file_name=image.file_name,
             width=image.width,

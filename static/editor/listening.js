@@ -11,6 +11,7 @@ import { listenToArcs } from "./ui/arc_choices.js";
 import { nameFields } from "./ui/field_names.js";
 import { legendIn } from "./ui/legend.js";
 import { listenToPanel } from "./ui/panel.js";
+import { listenToPlots } from "./ui/plots.js";
 import { showProgress } from "./ui/progress.js";
 import { listenToTags } from "./ui/tags.js";
 import { takePhotos } from "./ui/uploads.js";
@@ -63,6 +64,7 @@ function listenToInput({ state, pointer, toolbox, frame, going, sync, reviewing,
     sweep: (held) => toolbox.sweep(held),
     pressed: (at) => frame.causedBy(at, "key"),
   });
+  const compare = () => void (reviewing.review.on = true);
   listenToPanel({
     perform,
     use: (name) => toolbox.use(name),
@@ -72,8 +74,9 @@ function listenToInput({ state, pointer, toolbox, frame, going, sync, reviewing,
       sync.takeBack(image, changeSet);
     },
     send,
-    compare: () => void (reviewing.review.on = true),
+    compare,
   });
+  listenToPlots((image, select) => going.open(image, select), compare);
 }
 
 /** @type {(parts: Parts) => void} */

@@ -35,7 +35,7 @@ DRAWINGS = {
         statuses  splits  exported_photos
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
         repeats
-        change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps
+        change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

@@ -34,11 +34,12 @@ from fairyring.storage.records import (
     Queue,
     Run,
 )
+from fairyring.storage.review_figures import Totals
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (
-    "a button dd div dl dt figcaption figure h3 header image img kbd label li line ol option p path polygon "
-    "progress section select span strong svg table tbody td th thead tr ul"
+    "a button dd details div dl dt figcaption figure h3 header image img kbd label li line ol option p path "
+    "polygon progress section select span strong summary svg table tbody td th thead tr ul"
 )
 
 
@@ -95,6 +96,7 @@ FIGURES = Comparison(
 )  # fmt: skip
 
 
+TOTALS = Totals(measured=1, matched=1, missed=0, extra=0, cdr=0.1, floor=0.05, dx=0.1, dy=-0.2)
 VERDICT = GivenVerdict(
     number=1, image=1, annotation=EVIL, revision=1, says="comment", words=EVIL, user=EVIL, made_at=EVIL
 )
@@ -126,10 +128,14 @@ def every_panel() -> dict[str, str]:
         note=EVIL,
         pair=Pair(truth=0, prediction=0, iou=1.0, error=None),
     )
-    row = ImageRow(image=IMAGE, caps=1, ignored=0, predicted=1, cdr_mean=0.1, cdr_worst=0.2, worst=EVIL)
+    figures = {"cdr_mean": 0.1, "floor_mean": 0.05, "cdr_worst": 0.2, "worst": EVIL}
+    row = ImageRow(image=IMAGE, caps=1, ignored=0, predicted=1, **figures)
     told = Job(id=1, title=EVIL, user=EVIL, state="failed", message=EVIL, link=EVIL)
     running = Job(id=2, title=EVIL, user=EVIL, what=EVIL, total=3)
-    reviewed = review.Review(RUN, [ComparisonRow(file_name=EVIL, comparison=FIGURES, stale=True)], 1, 1)
+    listed = ComparisonRow(file_name=EVIL, comparison=FIGURES, stale=True)
+    reviewed = review.Review(
+        run=RUN, totals=TOTALS, groups={EVIL: TOTALS}, rows=[listed], total=1, stale=1, untouched=(1, [EVIL])
+    )
     return {
         "status": status.header(session(), project=EVIL, jobs=[running]).html,
         "images": images.image_list(ImagePage(rows=[row], total=1), 0, 1).html,
@@ -138,7 +144,7 @@ def every_panel() -> dict[str, str]:
         "summary": cap.summary(session().caps, EVIL).html,
         "several": several_facts([ANNOTATION, PREDICTION]).html,
         "learnt": learnt_table(LEARNT).html,
-        "review": review.review_page(reviewed, 0, 1).html,
+        "review": review.review_page(reviewed, 1).html,
         "jobs": jobs.job_list([told, running]).html,
         "desk": desk.said_of_image([VERDICT]).html,
         "queue": queue.queue_line(QUEUE, standing_of(QUEUE, {}), waiting=0).html,
@@ -162,8 +168,9 @@ def test_a_simulated_run_is_called_that_plainly() -> None:
 
 def test_no_cdr_is_shown_without_what_the_marks_are_off_by() -> None:
     figures = structs.replace(FIGURES, floor_mean=0.05)
-    reviewed = review.Review(RUN, [ComparisonRow(file_name="bed", comparison=figures, stale=False)], 1, 0)
-    page = read(review.review_page(reviewed, 0, 1).html)
+    listed = ComparisonRow(file_name="bed", comparison=figures, stale=False)
+    reviewed = review.Review(run=RUN, totals=TOTALS, rows=[listed], total=1)
+    page = read(review.review_page(reviewed, 1).html)
     assert "floor of marks" in page.text
     assert "0.050 %" in page.text
     titles = [value for key, value in page.attributes if key == "title"]

@@ -1,0 +1,140 @@
+"""The review as a page to print, and its plots and tables to keep."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import anyio.to_thread
+from sqlalchemy import Connection
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, PlainTextResponse, Response
+
+from fairyring.app.gateway.login import name_of
+from fairyring.app.panels.markup import Markup
+from fairyring.app.report.page import page_of
+from fairyring.app.report.plots import Bar, cdr_bars, shifts
+from fairyring.app.review.figures import review_of
+from fairyring.app.static_folder import STATIC
+from fairyring.storage.compared_caps import caps_of_image
+from fairyring.storage.comparisons import list_comparisons
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.project import Project
+from fairyring.storage.review_figures import shifts as find_shifts
+
+REPORT = "report.html"
+EVERYTHING = 1_000_000
+Rows = tuple[Sequence[str], Sequence[Sequence[Any]]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Asked:
+    """What is to be kept: of all images or of one, with or without unsure marks."""
+
+    what: str
+    image: int | None
+    only_sure: bool
+
+
+def reviews_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
+    """The endpoint of `REVIEWS`: ``report.html``; ``cdr``, ``caps`` and ``shifts`` as ``svg`` and ``csv``."""
+
+    async def reviews(request: Request) -> Response:
+        if name_of(request) is None:
+            return PlainTextResponse("Open the page first and say your name.", status_code=401)
+        number = request.query_params.get("image", "")
+        asked = _Asked(
+            what=request.path_params["what"],
+            image=int(number) if number.isdecimal() and len(number) < 19 else None,
+            only_sure=request.query_params.get("sure") == "1",
+        )
+        answer = await anyio.to_thread.run_sync(partial(_answer, project, asked))
+        return answer or PlainTextResponse("There is no such review.", status_code=404)
+
+    return reviews
+
+
+def _answer(project: Project, asked: _Asked) -> Response | None:
+    if asked.what == REPORT:
+        among = None if asked.image is None else {asked.image}
+        return HTMLResponse(page_of(project, review_of(project, among=among, only_sure=asked.only_sure)))
+    name, _, kind = asked.what.partition(".")
+    if name not in PLOTS or kind not in ("svg", "csv"):
+        return None
+    with project.read() as connection:
+        run = latest_run(connection)
+        if run is None:
+            return None
+        plot, rows = PLOTS[name](connection, run.id, asked)
+    if kind == "csv":
+        return _kept(_csv(rows), "text/csv; charset=utf-8", asked.what)
+    return _kept(_alone(plot), "image/svg+xml", asked.what)
+
+
+def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+    found = list_comparisons(
+        connection, run_id, sort="name", descending=False, only_sure=asked.only_sure, limit=EVERYTHING
+    )
+    figures = [(row.file_name, row.comparison) for row in found.rows]
+    bars = [
+        Bar(name=name, cdr=each.cdr_mean, floor=each.floor_mean)
+        for name, each in figures
+        if each.cdr_mean is not None
+    ]
+    columns = ("cdr_mean", "floor_mean", "cdr_worst", "dx", "dy", "measured", "matched", "missed", "extra")
+    rows = [(name, *(getattr(each, column) for column in columns)) for name, each in figures]
+    return cdr_bars(bars, what="Mean CDR by image"), (("image", *columns), rows)
+
+
+def _of_caps(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+    caps = [] if asked.image is None else caps_of_image(connection, run_id, asked.image)
+    shown = [each for each in caps if not (asked.only_sure and (each.unsure or each.doubtful))]
+    measured = [each for each in shown if each.cdr is not None]
+    bars = [
+        Bar(name=f"cap {nth}", cdr=each.cdr or 0.0, floor=each.floor)
+        for nth, each in enumerate(measured, start=1)
+    ]
+    columns = ("annotation", "cdr", "floor", "dx", "dy", "iou", "annotator", "size", "shape", "visibility")
+    rows = [[getattr(each, column) for column in columns] for each in measured]
+    return cdr_bars(bars, what="CDR of each cap"), (columns, rows)
+
+
+def _of_shifts(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+    found = find_shifts(connection, run_id, only_sure=asked.only_sure, most=EVERYTHING)
+    rows = [(each.image, each.annotation, each.dx, each.dy) for each in found]
+    plot = shifts([(each.dx, each.dy) for each in found])
+    return plot, (("image", "cap", "dx", "dy"), rows)
+
+
+PLOTS: dict[str, Callable[[Connection, int, _Asked], tuple[Markup, Rows]]] = {
+    "cdr": _of_images,
+    "caps": _of_caps,
+    "shifts": _of_shifts,
+}
+
+
+def _alone(figure: Markup) -> str:
+    """The plot of a figure as a file of its own, with its looks in it."""
+    start, end = figure.html.find("<svg"), figure.html.find("</svg>")
+    looks = f"<style>{(STATIC / 'report.css').read_text(encoding='utf-8')}</style>"
+    if start < 0:
+        return f'<svg xmlns="http://www.w3.org/2000/svg">{looks}</svg>'
+    head = figure.html.index(">", start) + 1
+    return f"{figure.html[start:head]}{looks}{figure.html[head:end]}</svg>"
+
+
+def _csv(rows: Rows) -> str:
+    written = io.StringIO()
+    writer = csv.writer(written)
+    writer.writerow(rows[0])
+    writer.writerows(rows[1])
+    return written.getvalue()
+
+
+def _kept(text: str, media_type: str, name: str) -> Response:
+    headers = {"Content-Disposition": f'attachment; filename="{name}"', "Cache-Control": "no-store"}
+    return Response(text, media_type=media_type, headers=headers)

@@ -1,0 +1,123 @@
+"""What the plots of a review show: their columns, and what each of their points is of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fairyring.model.evaluate.spread import ellipse_of_spread
+from fairyring.storage.compared_caps import CapFigures
+from fairyring.storage.comparisons import ComparisonRow
+from fairyring.storage.review_figures import Shift
+
+Columns = tuple[NDArray[np.float64], ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """A point of a plot, and what it is of."""
+
+    x: float
+    y: float
+    image: int
+    annotation: str | None
+    words: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plot:
+    """What a plot shows; nothing where it has no points."""
+
+    columns: Columns = ()
+    """x, then a column (n,) for each series; NaN where it has no value."""
+    points: Sequence[Point] = ()
+    x: tuple[float, float] = (0.0, 1.0)
+    """Ends of the axis."""
+    y: tuple[float, float] = (0.0, 1.0)
+
+
+def plot_of_images(rows: Sequence[ComparisonRow]) -> Plot:
+    """Mean CDR of each image by name, its floor and its worst cap."""
+    figures = [row.comparison for row in rows]
+    names = ("cdr_mean", "floor_mean", "cdr_worst")
+    means, floors, worst = (_column(getattr(each, name) for each in figures) for name in names)
+    points = [
+        Point(
+            x=nth,
+            y=f.cdr_mean or 0.0,
+            image=f.image,
+            annotation=f.worst,
+            words=f"{nth}, {row.file_name}: CDR {f.cdr_mean:.3f} %{_floor(f.floor_mean)}",
+        )
+        for nth, (row, f) in enumerate(zip(rows, figures, strict=True), start=1)
+    ]
+    return _by_number(points, means, floors, worst)
+
+
+def plot_of_caps(caps: Sequence[CapFigures]) -> Plot:
+    """CDR of each measured cap of an image with the floor of its mark, as the paper's Figure 19 has it."""
+    cdr, floors = _column(each.cdr for each in caps), _column(each.floor for each in caps)
+    points = [
+        Point(
+            x=nth,
+            y=each.cdr or 0.0,
+            image=each.image,
+            annotation=each.annotation,
+            words=f"cap {nth}: CDR {each.cdr:.3f} %{_floor(each.floor)}",
+        )
+        for nth, each in enumerate(caps, start=1)
+    ]
+    return _by_number(points, cdr, floors)
+
+
+def plot_of_shifts(found: Sequence[Shift]) -> Plot:
+    """A dot for each cap, and the ellipse that holds 95 of 100 if they scatter normally."""
+    if len(found) < 3:
+        return Plot()
+    moves = np.array([(each.dx, each.dy) for each in found])
+    reach = max(0.1, 1.1 * float(np.quantile(np.abs(moves), 0.98)))
+    inside = [each for each in found if abs(each.dx) <= reach and abs(each.dy) <= reach]
+    upper, lower = ellipse_of_spread(moves)
+    dots = np.array([(each.dx, each.dy) for each in inside]).reshape(-1, 2)
+    x = np.concatenate([dots[:, 0], upper[:, 0]])
+    nothing, open_ = np.full(len(dots), np.nan), np.full(len(upper), np.nan)
+    order = np.argsort(x, kind="stable")
+    columns = (
+        x,
+        np.concatenate([dots[:, 1], open_]),
+        np.concatenate([nothing, upper[:, 1]]),
+        np.concatenate([nothing, lower[:, 1]]),
+    )
+    points = [
+        Point(
+            x=each.dx,
+            y=each.dy,
+            image=each.image,
+            annotation=each.annotation,
+            words=f"Δx {each.dx:+.2f}, Δy {each.dy:+.2f} px",
+        )
+        for each in inside
+    ]
+    # y grows downwards on a photo, so it does here.
+    return Plot(
+        columns=tuple(each[order] for each in columns), points=points, x=(-reach, reach), y=(reach, -reach)
+    )
+
+
+def _by_number(points: Sequence[Point], *columns: NDArray[np.float64]) -> Plot:
+    if not points:
+        return Plot()
+    top = max(float(np.nanmax(np.concatenate([np.zeros(1), *columns]))), 0.01)
+    numbers = np.arange(1, len(points) + 1, dtype=np.float64)
+    return Plot(columns=(numbers, *columns), points=points, x=(0.5, len(points) + 0.5), y=(0.0, 1.05 * top))
+
+
+def _column(values: Iterable[float | None]) -> NDArray[np.float64]:
+    return np.array([np.nan if value is None else value for value in values], np.float64)
+
+
+def _floor(floor: float | None) -> str:
+    return ", floor not known" if floor is None else f", floor {floor:.3f} %"

@@ -1,0 +1,145 @@
+"""The figures of a whole review, straight from the store: of all images, of groups, and how centres shift."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, get_args
+
+from msgspec import Struct
+from sqlalchemy import ColumnElement, Connection, Row, Select, Subquery, and_, case, func, select
+
+from fairyring.storage.db.schema import compared_cap, comparison, image
+
+By = Literal["light", "form", "size", "visibility", "shape", "annotator"]
+BY: tuple[By, ...] = get_args(By)
+_C = compared_cap.c
+_SURE = and_(_C.unsure == 0, _C.doubtful == 0)
+_FIGURES: dict[str, ColumnElement[Any]] = {
+    "measured": func.count(_C.cdr),
+    "matched": func.coalesce(
+        func.sum(case((and_(_C.annotation.is_not(None), _C.prediction.is_not(None)), 1), else_=0)), 0
+    ),
+    "missed": func.coalesce(func.sum(case((_C.prediction.is_(None), 1), else_=0)), 0),
+    "extra": func.coalesce(func.sum(case((_C.annotation.is_(None), 1), else_=0)), 0),
+    "cdr": func.avg(_C.cdr),
+    "floor": func.avg(case((_C.cdr.is_not(None), _C.floor))),
+    "dx": func.avg(_C.dx),
+    "dy": func.avg(_C.dy),
+}
+
+
+class Totals(Struct, frozen=True, kw_only=True):
+    """Figures of some caps against a run."""
+
+    measured: int
+    """Marked caps with a prediction, of which the means are; None each where there are none."""
+    matched: int
+    missed: int
+    extra: int
+    cdr: float | None
+    """Mean CDR, percent (Eq. 10)."""
+    floor: float | None
+    """Mean CDR that the marks have by themselves, percent."""
+    dx: float | None
+    """Mean signed error along x, pixels, predicted minus marked; ``dy`` along y."""
+    dy: float | None
+
+
+class Shift(Struct, frozen=True, kw_only=True):
+    """Where the predicted centre of a cap lies from the marked one, pixels."""
+
+    image: int
+    annotation: str
+    dx: float
+    dy: float
+
+
+def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> Totals:
+    """Figures of all images that this run is the latest of.
+
+    Args:
+        connection: to read by.
+        run_id: against which run.
+        only_sure: without doubtful caps and marks that hardly determine a centre.
+    """
+    if only_sure:
+        (found,) = [_totals(row) for row in connection.execute(_of_caps(run_id, only_sure=True))]
+        return found
+    c = comparison.c
+    weighted = {
+        name: func.sum(c[column] * c.measured) / func.nullif(func.sum(_counted(c[column])), 0)
+        for name, column in (("cdr", "cdr_mean"), ("floor", "floor_mean"), ("dx", "dx"), ("dy", "dy"))
+    }
+    counts = {
+        name: func.coalesce(func.sum(c[name]), 0) for name in ("measured", "matched", "missed", "extra")
+    }
+    statement = (
+        select(*(column.label(name) for name, column in (counts | weighted).items()))
+        .select_from(comparison.join(image, image.c.id == c.image))
+        .where(c.run == run_id, image.c.run == run_id)
+    )
+    return _totals(connection.execute(statement).one())
+
+
+def totals_by(connection: Connection, run_id: int, by: By, *, only_sure: bool = False) -> dict[str, Totals]:
+    """The same of caps of each light, form, size …; those of which it is not known are in none."""
+    column: ColumnElement[Any] = image.c[by] if by in ("light", "form") else _C[by]
+    statement = _of_caps(run_id, only_sure=only_sure).add_columns(column.label("value"))
+    rows = connection.execute(statement.where(column.is_not(None)).group_by(column).order_by(column))
+    return {row.value: _totals(row) for row in rows}
+
+
+def sure_figures(run_id: int) -> Subquery:
+    """The figures of each image without doubtful caps and unsure marks, named as those of a comparison."""
+    figures = _FIGURES | {
+        "caps": func.count(_C.annotation),
+        "marked": func.count(_C.own_floor),
+        "cdr_mean": _FIGURES["cdr"],
+        "cdr_worst": func.max(_C.cdr),
+        "floor_mean": _FIGURES["floor"],
+    }
+    return (
+        select(_C.image, *(column.label(name) for name, column in figures.items()))
+        .where(_C.run == run_id, _C.ignored == 0, _SURE)
+        .group_by(_C.image)
+        .subquery("sure")
+    )
+
+
+def shifts(connection: Connection, run_id: int, *, only_sure: bool = False, most: int = 3000) -> list[Shift]:
+    """How measured centres shift; of more than ``most`` caps as many, spread evenly over all of them."""
+    wanted = [_C.run == run_id, _C.dx.is_not(None), *([_SURE] if only_sure else [])]
+    measured = connection.execute(select(func.count()).select_from(compared_cap).where(*wanted)).scalar_one()
+    step = max(1, -(-measured // most))
+    rows = connection.execute(
+        select(_C.image, _C.annotation, _C.dx, _C.dy)
+        .join(image, image.c.id == _C.image)
+        .where(*wanted, image.c.run == run_id, _C.sequence % step == 0)
+        .order_by(_C.sequence)
+    )
+    return [Shift(image=row.image, annotation=row.annotation, dx=row.dx, dy=row.dy) for row in rows]
+
+
+def untouched(connection: Connection, *, most: int = 20) -> tuple[int, list[str]]:
+    """How many images nobody has worked on, which count nowhere, and the file names of the first of them."""
+    waiting = and_(image.c.status == "new", image.c.caps + image.c.ignored == 0)
+    count = connection.execute(select(func.count()).select_from(image).where(waiting)).scalar_one()
+    names = select(image.c.file_name).where(waiting).order_by(image.c.sort_name, image.c.id).limit(most)
+    return count, list(connection.execute(names).scalars())
+
+
+def _of_caps(run_id: int, *, only_sure: bool) -> Select[Any]:
+    wanted = [_C.run == run_id, image.c.run == run_id, _C.ignored == 0, *([_SURE] if only_sure else [])]
+    return (
+        select(*(column.label(name) for name, column in _FIGURES.items()))
+        .select_from(compared_cap.join(image, image.c.id == _C.image))
+        .where(*wanted)
+    )
+
+
+def _counted(column: ColumnElement[Any]) -> ColumnElement[Any]:
+    """How many caps a mean is of: none where it is not known."""
+    return case((column.is_not(None), comparison.c.measured), else_=0)
+
+
+def _totals(row: Row[Any]) -> Totals:
+    return Totals(**{name: getattr(row, name) for name in Totals.__struct_fields__})
