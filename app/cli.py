@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from fairyring.app.commands import (
+    agreement,
     benchmarks,
     contour,
     demo,
@@ -58,6 +59,7 @@ app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
 app.command("review")(review.review)
 app.command("rules")(rules.rules)
+app.command("agreement")(agreement.agreement)
 app.add_typer(evaluate.commands, name="evaluate")
 app.add_typer(runs.commands, name="runs")
 app.add_typer(benchmarks.commands, name="bench")

@@ -220,7 +220,7 @@ async def _carry_out_for_panel(
             await tell_differences(workspace, session, image)
         case ShowCaps(kind=kind):
             session.gallery = kind
-            session.refresh("gallery")
+            session.redraw_at_once(("gallery",))
         case Window():
             follow_window(session, message)
         case Tag():

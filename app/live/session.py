@@ -48,7 +48,9 @@ class Session:
     user: str = ""
     has_panel: bool = False
     redraw: Callable[[tuple[str, ...]], None] = lambda _parts: None
-    """Has these parts of the panel drawn anew at once."""
+    """Has these parts of the panel drawn anew, together with what else changes within a moment."""
+    redraw_at_once: Callable[[tuple[str, ...]], None] = lambda _parts: None
+    """The same without waiting for what else may change: the person has asked for these."""
     redraw_soon: Callable[[tuple[str, ...]], None] = lambda _parts: None
     """Has them drawn anew within a second or two, together with what else changes until then."""
     outbox: asyncio.Queue[FromServer] | None = None

@@ -58,11 +58,15 @@ class Redrawing:
         self._task: asyncio.Task[None] | None = None
         self._later: set[str] = set()
 
-    def ask(self, parts: tuple[str, ...]) -> None:
+    def ask(self, parts: tuple[str, ...], *, after_s: float = REDRAW_AFTER_S) -> None:
         """Marks parts as out of date."""
         self._wanted.update(part for part in parts if part in self._parts)
         if self._task is None and self._wanted:
-            self._task = asyncio.create_task(self._draw())
+            self._task = asyncio.create_task(self._draw(after_s))
+
+    def ask_at_once(self, parts: tuple[str, ...]) -> None:
+        """The same where somebody waits for nothing but this."""
+        self.ask(parts, after_s=0.0)
 
     def ask_later(self, parts: tuple[str, ...]) -> None:
         """Marks parts as out of date, and draws them together with what else becomes so until then."""
@@ -74,9 +78,9 @@ class Redrawing:
         parts, self._later = tuple(self._later), set()
         self.ask(parts)
 
-    async def _draw(self) -> None:
+    async def _draw(self, after_s: float) -> None:
         try:
-            await asyncio.sleep(REDRAW_AFTER_S)
+            await asyncio.sleep(after_s)
             while self._wanted:
                 part = next(name for name in self._parts if name in self._wanted)
                 self._wanted.discard(part)

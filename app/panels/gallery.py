@@ -29,7 +29,7 @@ WORDS: dict[Kind, str] = {
     "ignored": "ignored",
 }
 ABOUT: dict[Kind, str] = {
-    "worst": "Furthest above the floor of their marks first.",
+    "worst": "CDR / floor of its mark; furthest above its floor first.",
     "missed": "Annotated, and not predicted.",
     "extra": "Predicted, and not annotated.",
     "doubtful": "A careful person could disagree.",
@@ -124,13 +124,13 @@ def _figure(each: Thumbnail) -> Markup:
     if outline is None:
         return element("div", "gone", class_="fr-quiet")
     said = "–" if figures.cdr is None else f"{figures.cdr:.2f} %"
-    floor = "" if figures.floor is None else f", its mark alone {figures.floor:.2f} %"
-    told = f"{each.image.file_name}: CDR {said}{floor}"
+    floor = "–" if figures.floor is None else f"{figures.floor:.2f}"
+    told = f"{each.image.file_name}: CDR {said}, its mark alone {floor} %"
     select = figures.annotation or f"prediction:{figures.prediction}"
     return element(
         "button",
         close_up(each.image, each.annotation, each.prediction),
-        element("span", "" if figures.cdr is None else said),
+        element("span", "" if figures.cdr is None else f"{figures.cdr:.2f} / {floor} %"),
         type="button",
         title=told,
         aria_label=f"Open {told}",

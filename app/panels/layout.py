@@ -57,5 +57,6 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["jobs"] = jobs.build(workspace, session)
         redrawing = Redrawing({part: parts[part] for part in ALL})
         session.redraw, session.redraw_soon = redrawing.ask, redrawing.ask_later
+        session.redraw_at_once = redrawing.ask_at_once
         session.has_panel = True
     session.refresh(*ALL)

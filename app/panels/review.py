@@ -95,12 +95,12 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def turn() -> None:
         page[0] = max(page[0] + (1 if pages.value == "›" else -1), 0)
-        session.refresh("review")
+        session.redraw_at_once(("review",))
 
     async def choose() -> None:
         page[0] = 0
         session.only_sure = only_sure.value
-        session.refresh("review", "plots", "cap_plot")
+        session.redraw_at_once(("review", "plots", "cap_plot"))
 
     async def start() -> None:
         workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))

@@ -15,7 +15,7 @@ from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.formats.coco_geometry import Drawn
 from fairyring.storage.formats.foreign_keys import without_geometry
 from fairyring.storage.provenance import Standing
-from fairyring.storage.records import Annotation, GivenVerdict, Image, Prediction
+from fairyring.storage.records import IMPORT, Annotation, GivenVerdict, Image, Prediction
 
 VERDICTS = "verdicts"
 KEYPOINTS = ["centre"]
@@ -120,7 +120,13 @@ def verdict_keys(verdicts: Sequence[GivenVerdict], extra: dict[str, Any]) -> dic
     """``verdicts``: what reviewers said of an image or a cap, after what an imported file has them say."""
     imported = extra.get(VERDICTS)
     said = [*imported] if isinstance(imported, list) else []
+    decided = [
+        entry.get("says") for entry in said if isinstance(entry, dict) and entry.get("says") != "comment"
+    ]
     for each in verdicts:
+        if each.user == IMPORT and each.says == "approved" and decided[-1:] == ["approved"]:
+            # The import only took over an approval, whose giver stands in the file.
+            continue
         of_cap = {} if each.revision is None else {"revision": each.revision}
         entry = {"says": each.says, "words": each.words} | of_cap | {"by": each.user, "at": each.made_at}
         # An export that comes back says what the project itself says.

@@ -139,6 +139,7 @@ def test_ada_cannot_approve_her_own_work_until_the_project_allows_it(
     tab.page.get_by_text("You have labelled this image").wait_for()
     assert status_of(project, 1) == "annotated"
     tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Rules of this project").click()
     tab.page.get_by_label("Approve own work").check(force=True)
     tab.page.wait_for_timeout(500)
     tab.press("p")
@@ -284,3 +285,35 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     worst.nth(1).click()
     on_image(tab, 2)
     tab.wait_for("window.fairyring.state.selection[0]?.startsWith('prediction:')")
+
+
+def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the_cap(
+    server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_role("button", name="Bring up to date").click()
+    plot = tab.page.get_by_role("group", name="CDR of each image, %")
+    plot.wait_for()
+    drawn = tab.page.locator(".u-over").first
+    drawn.scroll_into_view_if_needed()
+    box = drawn.bounding_box()
+    assert box is not None
+    tab.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
+    plot.get_by_text("2, bed_2.png: CDR").wait_for()
+    tab.page.mouse.click(box["x"] + 0.9 * box["width"], box["y"] + 20)
+    on_image(tab, 3)
+    selected(tab, uid_of(3, 1))
+    choose(tab, "Figures by", "annotator")
+    groups = tab.page.get_by_role("table", name="Figures by group")
+    assert groups.get_by_role("row", name="Ada").inner_text().split()[3:] == ["12", "3"]
+    with tab.page.expect_download() as kept:
+        plot.get_by_role("link", name="CSV").click()
+    rows = kept.value.path().read_text().splitlines()
+    assert [row.split(",")[0] for row in rows] == ["image", "bed_1.png", "bed_2.png", "bed_3.png"]
+    svg = tab.page.request.get(f"{server.url}/review/shifts.svg").text()
+    assert svg.startswith("<svg")
+    assert svg.count('class="dot"') == 12
+    report = tab.page.request.get(f"{server.url}/review/report.html?image=2").text()
+    assert "(Table 4)" in report
+    assert "bed_1.png" not in report

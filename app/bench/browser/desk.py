@@ -33,7 +33,8 @@ OFF_PX = 6.0
 """By how much the mark of the first cap of each image is off."""
 FIRST_FIGURES_MS, FILTER_MS, VERDICT_MS = 300, 150, 50
 CLICKS = 20
-FIRST = "first figures, from the editor's hello on (reference: the list of images)"
+FIRST = "first figures, from the click on Review on (reference: what History takes)"
+OPENED = "first figures, from the editor's hello on (reference: the list of images)"
 WATCH = r"""
 (() => {
   const send = WebSocket.prototype.send;
@@ -47,6 +48,23 @@ WATCH = r"""
     if (document.querySelector(".fr-images tr")) window.listAt ??= performance.now();
   }).observe(document, { childList: true, subtree: true });
 })();
+"""
+SHOWN = r"""
+([name, shown]) => new Promise((resolve) => {
+  const since = performance.now();
+  const look = () => document.querySelector(shown)?.checkVisibility()
+    ? resolve(performance.now() - since) : setTimeout(look, 1);
+  [...document.querySelectorAll("[role=tab]")].find((tab) => tab.textContent === name).click();
+  look();
+})
+"""
+CHOSEN_UNTIL = """
+(option) => new Promise((resolve) => {
+  const since = performance.now();
+  const look = () => %s ? resolve(performance.now() - since) : setTimeout(look, 1);
+  option.click();
+  look();
+})
 """
 CLICKED_UNTIL = r"""
 ([button, done]) => new Promise((resolve) => {
@@ -129,28 +147,47 @@ def _waiting(browser: Browser, server: Server) -> list[Row]:
     page = browser.new_page(viewport={"width": 1500, "height": 900})
     page.add_init_script(WATCH)
     tab = Tab(page)
-    taken, lists = [], []
+    taken, lists, opened, histories = [], [], [], []
     try:
         tab.enter(server.url, name="Rev")
         for _ in range(CLICKS):
             page.reload()
             tab.wait_for("window.listAt && window.helloAt")
-            page.get_by_role("tab", name="Review").click()
+            taken.append(page.evaluate(SHOWN, ["Review", ".fr-totals"]))
             tab.wait_for("window.figuresAt")
+            histories.append(page.evaluate(SHOWN, ["History", ".fr-history"]))
+            page.evaluate(SHOWN, ["Review", ".fr-totals"])
             lists.append(page.evaluate("window.listAt - window.helloAt"))
-            taken.append(page.evaluate("window.figuresAt - window.helloAt"))
+            opened.append(page.evaluate("window.figuresAt - window.helloAt"))
         filtered = [_filter(tab, ("missed", "extra", "worst")[nth % 3]) for nth in range(CLICKS)]
+        grouped = [_grouped(tab) for _ in range(CLICKS)]
     finally:
         page.close()
     return [
-        p95_row(FIRST, taken, target=FIRST_FIGURES_MS, reference=lists),
+        p95_row(FIRST, taken, target=FIRST_FIGURES_MS, reference=histories),
+        p95_row(OPENED, opened, reference=lists),
         p95_row("other caps of all images, from the click to the page", filtered, target=FILTER_MS),
+        p95_row("figures by annotator, from the choice to the page", grouped, target=FILTER_MS),
     ]
 
 
 def _filter(tab: Tab, kind: str) -> float:
     button = f"[data-fairyring-gallery={kind}][aria-pressed]"
     return tab.page.evaluate(CLICKED_UNTIL, [button, f"[data-fairyring-gallery={kind}][aria-pressed=true]"])
+
+
+def _grouped(tab: Tab) -> float:
+    """Has figures shown by annotator; milliseconds from the choice until they stand there."""
+    taken = _choose(tab, "annotator", "document.querySelector('.fr-groups')")
+    _choose(tab, "nothing", "!document.querySelector('.fr-groups')")
+    return taken
+
+
+def _choose(tab: Tab, words: str, done: str) -> float:
+    tab.page.get_by_label("Figures by").first.click()
+    option = tab.page.get_by_role("option", name=words, exact=True)
+    option.wait_for()
+    return option.evaluate(CHOSEN_UNTIL % done)
 
 
 def _decide(browser: Browser, server: Server, count: int) -> list[Row]:

@@ -46,11 +46,11 @@ function drawCap(context, view, state, review, cap) {
     context.setLineDash([]);
   }
   if (prediction?.centre && shape?.centre && !isPrediction(shape) && review.turn === null)
-    drawError(context, view, shape.centre, prediction.centre, { times: review.times, cdr: cap.cdr });
+    drawError(context, view, shape.centre, prediction.centre, { times: review.times, cdr: cap.cdr, floor: cap.floor });
 }
 
-/** @type {(context: Context, view: View, from: import("../protocol.js").Point, to: import("../protocol.js").Point, how: {times: number, cdr: number | null}) => void} */
-function drawError(context, view, from, to, { times, cdr }) {
+/** @type {(context: Context, view: View, from: import("../protocol.js").Point, to: import("../protocol.js").Point, how: {times: number, cdr: number | null, floor: number | null}) => void} */
+function drawError(context, view, from, to, { times, cdr, floor }) {
   const [x0, y0] = toScreen(view, ...from);
   const [x1, y1] = toScreen(view, from[0] + times * (to[0] - from[0]), from[1] + times * (to[1] - from[1]));
   context.beginPath();
@@ -65,5 +65,5 @@ function drawError(context, view, from, to, { times, cdr }) {
     traceCross(context, x, y, ARM_PX);
     strokeCased(context, { colour, width: 1.5, casing: CASING });
   }
-  if (cdr !== null && Math.hypot(x1 - x0, y1 - y0) > TOLD_PX) writeCentred(context, `${cdr.toFixed(2)} %`, x0, y0 + ARM_PX + 2);
+  if (cdr !== null && Math.hypot(x1 - x0, y1 - y0) > TOLD_PX) writeCentred(context, `${cdr.toFixed(2)} / ${floor?.toFixed(2) ?? "–"} %`, x0, y0 + ARM_PX + 2);
 }

@@ -31,6 +31,8 @@ def test_verdicts_are_written_and_survive_a_second_project(beds, square, tmp_pat
     again = json.loads((tmp_path / "again" / "instances.json").read_text())
     (same,) = [each for each in again["annotations"] if each["uid"] == "cap"]
     assert same["verdicts"] == cap["verdicts"]
+    (photo,) = [each for each in again["images"] if each["file_name"] == image["file_name"]]
+    assert photo["verdicts"] == image["verdicts"]
 
 
 def test_an_export_that_comes_back_says_no_verdict_twice(beds, square, tmp_path):

@@ -1,0 +1,28 @@
+"""The ellipse that holds most of a cloud of shifts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from fairyring.model.evaluate.spread import axes_of_spread, ellipse_of_spread
+
+
+def test_it_holds_95_of_100_of_what_scatters_normally() -> None:
+    moves = np.random.default_rng(2).multivariate_normal((1.0, -2.0), [[4.0, 1.5], [1.5, 1.0]], 20_000)
+    radii, vectors = axes_of_spread(moves)
+    turned = (moves - moves.mean(axis=0)) @ vectors
+    assert np.mean(((turned / radii) ** 2).sum(axis=1) <= 1) == pytest.approx(0.95, abs=0.005)
+
+
+def test_its_two_halves_lie_on_it() -> None:
+    moves = np.random.default_rng(4).multivariate_normal((1.0, -2.0), [[4.0, 1.5], [1.5, 1.0]], 500)
+    radii, vectors = axes_of_spread(moves)
+    for half in ellipse_of_spread(moves):
+        turned = (half - moves.mean(axis=0)) @ vectors
+        assert ((turned / radii) ** 2).sum(axis=1) == pytest.approx(np.ones(len(half)))
+
+
+def test_shifts_of_one_kind_alone_have_a_flat_one() -> None:
+    upper, lower = ellipse_of_spread(np.array([[1.0, 2.0], [1.0, 2.0], [1.0, 2.0]]))
+    assert upper == pytest.approx(lower)
