@@ -53,8 +53,33 @@ def _walk(tab: Tab) -> None:
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("mean CDR").wait_for()
     _take(tab, "review")
+    tab.page.locator(".u-over").first.scroll_into_view_if_needed()
+    _take(tab, "plots")
+    _mark_again(tab)
     tab.press("?")
     _take(tab, "keys")
+
+
+def _mark_again(tab: Tab) -> None:
+    """The dialog in which a cap of another photo is marked again, half done."""
+    tab.page.get_by_text("Rules of this project").click()
+    tab.page.get_by_label("Mark again %").fill("100")
+    tab.press("Tab")
+    tab.press("n")
+    tab.page.wait_for_function("() => window.fairyring.state.image.id === 2")
+    tab.press("Shift+O")
+    canvas = tab.page.get_by_role("dialog", name="Mark this cap").locator("canvas")
+    canvas.wait_for()
+    box = canvas.bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    tab.page.mouse.move(x, y)
+    tab.page.mouse.down()
+    tab.page.mouse.move(x + box["width"] / 4.4, y, steps=4)
+    tab.page.mouse.up()
+    _take(tab, "again")
+    tab.press("Escape", "p")
+    tab.page.wait_for_function("() => window.fairyring.state.image.id === 1")
 
 
 def _drag_a_vertex(tab: Tab, part: list[float]) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
 from fairyring.app.report.paper_tables import paper_tables
-from fairyring.app.report.pictures import close_ups
+from fairyring.app.report.pictures import close_ups, side_by_side
 from fairyring.app.report.plots import Bar, cdr_bars, shifts
 from fairyring.app.report.tables import number, percent, table
 from fairyring.app.report.two_runs import two_runs
@@ -63,6 +63,7 @@ def page_of(project: Project, review: Review, *, before: Review | None = None) -
             cdr_bars(_bars_of_images(figures["images"]), what="Mean CDR by image"),
             _images(figures["images"]),
             *_cap_by_cap(review),
+            *_photos(project, review),
             paper_tables(project, review),
             element("h2", "Where predicted centres lie"),
             shifts([(cap.dx, cap.dy) for cap in (c.measured.error for c in review.caps) if cap]),
@@ -137,6 +138,28 @@ def _cap_by_cap(review: Review) -> list[Markup]:
         caps = [cap for cap in review.caps if cap.measured.page == place and cap.measured.error]
         plots.append(cdr_bars(_bars_of_caps(caps), what=f"{image.file_name}: CDR of each cap"))
     return plots
+
+
+def _photos(project: Project, review: Review) -> list[Markup]:
+    """What was marked, what was predicted, and both, of a few photos."""
+    if len(review.images) > MOST_CAP_BY_CAP:
+        return []
+    shown = []
+    for image in review.images:
+        words = ("marked", "predicted", "both, with the lines between centres")
+        pictures = zip(words, side_by_side(project, image.id), strict=False)
+        shown += [
+            element(
+                "figure", element("img", src=address, alt=told), element("figcaption", told), class_="photo"
+            )
+            for told, address in ((f"{image.file_name}: {word}", address) for word, address in pictures)
+        ]
+    return [element("h2", "Marked and predicted contours"), *shown] if shown else []
+
+
+def _photo(told: str, address: str) -> Markup:
+    picture = element("img", src=address, alt=told)
+    return element("figure", picture, element("figcaption", told), class_="photo")
 
 
 def _bars_of_caps(caps: Sequence[ReviewedCap]) -> list[Bar]:

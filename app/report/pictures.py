@@ -9,11 +9,18 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.app.caps.records import prediction_record, truth_record
 from fairyring.app.review.figures import ReviewedCap
+from fairyring.model.evaluate.centres import compare
 from fairyring.model.geometry.boxes import boxes_of_outlines
 from fairyring.model.geometry.shapes import Centre, Outline, points_of_part, polygon_of_shape
 from fairyring.model.photo import read
-from fairyring.storage.contents import load_annotation, load_prediction
+from fairyring.storage.contents import (
+    load_annotation,
+    load_annotations,
+    load_prediction,
+    load_predictions,
+)
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
 from fairyring.storage.project import Project
@@ -23,6 +30,8 @@ SIDE = 240
 """Height and width of a close-up, pixels."""
 AROUND = 1.5
 """Side of what it shows of the photo, in sides of the cap's box."""
+WIDE = 1000
+"""Longer side of a whole photo, pixels."""
 MARKED, PREDICTED = (255, 200, 0), (255, 0, 255)
 """Colours, blue first: what people marked, what was predicted."""
 FRACTION_BITS = 4
@@ -50,6 +59,38 @@ def close_ups(project: Project, caps: list[ReviewedCap]) -> list[str]:
         photo = photos[cap.image]
         addresses.append("" if photo is None else _address(_close_up(project, cap, photo)))
     return addresses
+
+
+def side_by_side(project: Project, image_id: int) -> list[str]:
+    """A whole photo three times, as in Figures 17 and 18 of the paper: marked contours, predicted ones, both.
+
+    Centres are drawn, too, and on the last the lines between those of one cap. Empty where the photo is gone.
+    """
+    photo = _photo(project, image_id)
+    if photo is None:
+        return []
+    with project.read() as connection:
+        said, guessed = load_annotations(connection, image_id), load_predictions(connection, image_id)
+        image = get_image(connection, image_id)
+    pairs = compare(
+        [truth_record(each, image) for each in said],
+        [prediction_record(each, image) for each in guessed],
+        width=image.width,
+        height=image.height,
+    ).pairs
+    scale = min(1.0, WIDE / max(photo.shape[:2]))
+    size = round(photo.shape[1] * scale), round(photo.shape[0] * scale)
+    small = np.ascontiguousarray(cv2.resize(photo, size, interpolation=cv2.INTER_AREA), np.uint8)
+    view = _View(x=0.0, y=0.0, scale=scale)
+    addresses = []
+    for shown in ((said,), (guessed,), (said, guessed)):
+        picture = small.copy()
+        for each in (cap for caps in shown for cap in caps):
+            _draw_centred(picture, each, view)
+        for pair in pairs if len(shown) == 2 else ():
+            marked, predicted = said[pair.truth].centre, guessed[pair.prediction].centre
+            if marked is not None and predicted is not None:
+                _line(picture, marked, predicted, view)
 
 
 def _photo(project: Project, image_id: int) -> Picture | None:
@@ -108,9 +149,14 @@ def _draw(picture: Picture, outline: Outline, view: _View, colour: tuple[int, in
     cv2.polylines(picture, parts, True, colour, 1, cv2.LINE_AA, FRACTION_BITS)
 
 
-def _join(picture: Picture, marked: Centre, predicted: Centre, view: _View) -> None:
+def _line(picture: Picture, marked: Centre, predicted: Centre, view: _View) -> None:
     ends = _placed(np.array([marked, predicted]), view)
     cv2.line(picture, ends[0], ends[1], (255, 255, 255), 1, cv2.LINE_AA, FRACTION_BITS)
+
+
+def _join(picture: Picture, marked: Centre, predicted: Centre, view: _View) -> None:
+    _line(picture, marked, predicted, view)
+    ends = _placed(np.array([marked, predicted]), view)
     for end, colour in zip(ends, (MARKED, PREDICTED), strict=True):
         cv2.circle(picture, end, 3 * 2**FRACTION_BITS, colour, -1, cv2.LINE_AA, FRACTION_BITS)
 

@@ -60,7 +60,8 @@ def test_the_page_loads_nothing_and_no_name_is_read_as_html(project: Project) ->
     mark_both(project)
     page = read_page(project)
     assert all(address.startswith("data:") for address in page.found)
-    assert page.tags.count("img") == 2  # a close-up of each measured cap, and none of a file's name
+    # The photo three times, a close-up of each of two measured caps, and none of a file's name.
+    assert page.tags.count("img") == 5
     assert "script" not in page.tags
 
 
