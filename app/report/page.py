@@ -148,12 +148,7 @@ def _photos(project: Project, review: Review) -> list[Markup]:
     for image in review.images:
         words = ("marked", "predicted", "both, with the lines between centres")
         pictures = zip(words, side_by_side(project, image.id), strict=False)
-        shown += [
-            element(
-                "figure", element("img", src=address, alt=told), element("figcaption", told), class_="photo"
-            )
-            for told, address in ((f"{image.file_name}: {word}", address) for word, address in pictures)
-        ]
+        shown += [_photo(f"{image.file_name}: {word}", address) for word, address in pictures]
     return [element("h2", "Marked and predicted contours"), *shown] if shown else []
 
 

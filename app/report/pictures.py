@@ -91,6 +91,16 @@ def side_by_side(project: Project, image_id: int) -> list[str]:
             marked, predicted = said[pair.truth].centre, guessed[pair.prediction].centre
             if marked is not None and predicted is not None:
                 _line(picture, marked, predicted, view)
+        addresses.append(_address(picture))
+    return addresses
+
+
+def _draw_centred(picture: Picture, cap: Annotation | Prediction, view: _View) -> None:
+    colour = MARKED if isinstance(cap, Annotation) else PREDICTED
+    _draw(picture, _outline_of(cap), view, colour)
+    if cap.centre is not None:
+        (at,) = _placed(np.array([cap.centre]), view)
+        cv2.circle(picture, at, 2 * 2**FRACTION_BITS, colour, -1, cv2.LINE_AA, FRACTION_BITS)
 
 
 def _photo(project: Project, image_id: int) -> Picture | None:
