@@ -53,6 +53,7 @@ def resolve_overlaps(
 
     Where two caps touch, the edge then runs where they are equally sure. Components under half of the
     largest are left out, and so are horns, before they take pixels: a tongue would be left in another cap.
+    What others leave of a cap beside its largest part goes, too: people take such a scrap for another cap.
     """
     inside = [without_specks(cut(window, width=width, height=height)) for window in windows]
     inside = [replace(window, logits=without_horns(window.logits)) for window in inside]
@@ -65,7 +66,7 @@ def resolve_overlaps(
     for nth, window in enumerate(inside):
         here = _slices_of(window)
         others = np.where(owner[here] == nth, second[here], first[here])
-        resolved.append(replace(window, logits=window.logits - others))
+        resolved.append(without_specks(replace(window, logits=window.logits - others)))
     return resolved
 
 

@@ -69,6 +69,16 @@ def test_a_component_under_half_of_the_largest_is_left_out_and_a_larger_one_kept
     assert resolved.logits.tolist() == [[-2.0, -2.0, 1.0, -2.0, -2.0, -2.0]]
 
 
+def test_what_others_leave_beside_the_largest_part_goes_and_as_large_a_part_stays() -> None:
+    beneath = np.ones((1, 9), np.float32)
+    over = window(5, 0, [[4.0, 4.0, 4.0]])
+    scrap, _ = resolve_overlaps([Window(x=0, y=0, logits=beneath), over], [0.9, 0.9], width=9, height=1)
+    assert (scrap.logits[0] > 0).tolist() == [True] * 5 + [False] * 4
+    middle = window(3, 0, [[4.0, 4.0, 4.0]])
+    halves, _ = resolve_overlaps([Window(x=0, y=0, logits=beneath), middle], [0.9, 0.9], width=9, height=1)
+    assert (halves.logits[0] > 0).tolist() == [True] * 3 + [False] * 3 + [True] * 3
+
+
 def by_loops(
     windows: list[Window], scores: list[float], width: int, height: int
 ) -> list[NDArray[np.float32]]:
