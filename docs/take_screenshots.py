@@ -65,6 +65,7 @@ def _mark_again(tab: Tab) -> None:
     tab.page.get_by_text("Rules of this project").click()
     tab.page.get_by_label("Mark again %").fill("100")
     tab.press("Tab")
+    tab.page.evaluate("document.activeElement.blur()")
     tab.press("n")
     tab.page.wait_for_function("() => window.fairyring.state.image.id === 2")
     tab.press("Shift+O")

@@ -64,6 +64,12 @@ def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> T
     if only_sure:
         (found,) = [_totals(row) for row in connection.execute(_of_caps(run_id, only_sure=True))]
         return found
+    latest = select(image.c.id).where(image.c.run == run_id)
+    return totals_among(connection, run_id, latest)
+
+
+def totals_among(connection: Connection, run_id: int, images: Select[tuple[int]]) -> Totals:
+    """Figures of the images that a query names, against a run that need not be their latest."""
     c = comparison.c
     weighted = {
         name: func.sum(c[column] * c.measured) / func.nullif(func.sum(_counted(c[column])), 0)
@@ -72,10 +78,8 @@ def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> T
     counts = {
         name: func.coalesce(func.sum(c[name]), 0) for name in ("measured", "matched", "missed", "extra")
     }
-    statement = (
-        select(*(column.label(name) for name, column in (counts | weighted).items()))
-        .select_from(comparison.join(image, image.c.id == c.image))
-        .where(c.run == run_id, image.c.run == run_id)
+    statement = select(*(column.label(name) for name, column in (counts | weighted).items())).where(
+        c.run == run_id, c.image.in_(images)
     )
     return _totals(connection.execute(statement).one())
 

@@ -30,6 +30,7 @@ from fairyring.storage.images import get_image
 from fairyring.storage.open_predictions import covered_by
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Image, Outline, Prediction
+from fairyring.storage.runs import get_run, predictions_by
 
 Key = TypeVar("Key")
 log = logging.getLogger(__name__)
@@ -72,14 +73,23 @@ def _near(outline: Outline, others: Mapping[Key, Outline]) -> list[Key]:
     return list(compress(others, near))
 
 
-def compare_image(project: Project, image_id: int, *, run: Run = here) -> Comparison | None:
-    """Computes, by ``run``, and stores the figures of one image; None where no network has seen it."""
+def compare_image(
+    project: Project, image_id: int, *, with_run: int | None = None, run: Run = here
+) -> Comparison | None:
+    """Computes, by ``run``, and stores the figures of one image; None where no network has seen it.
+
+    They are those against the latest run that saw it, unless ``with_run`` names another one.
+    """
     fill_in(project, [image_id], compute=one_by_one(run))
     with project.read() as connection:
         version = load_version(connection, image_id)
         image, latest = get_image(connection, image_id), load_latest_run(connection, image_id)
         annotations = load_annotations(connection, image_id)
-        predictions = load_predictions(connection, image_id)
+        if with_run is None:
+            predictions = load_predictions(connection, image_id)
+        else:
+            latest = get_run(connection, with_run)
+            predictions = predictions_by(connection, with_run, image_id)
         marks = marks_on(connection, image_id)
     if latest is None:
         return None

@@ -8,9 +8,11 @@ from fairyring.app.caps.comparison import compare_image
 from fairyring.app.jobs.runner import Result
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
+from fairyring.storage.compared_runs import lacking_comparison
 from fairyring.storage.comparisons import stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
+from fairyring.storage.records import Run as Predicting
 
 
 def compare_work(project: Project, *, run: Run = here) -> Callable[[Progress], Result]:
@@ -24,5 +26,19 @@ def compare_work(project: Project, *, run: Run = here) -> Callable[[Progress], R
             progress(done, len(stale), "Comparing caps with predictions")
             compare_image(project, image_id, run=run)
         return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
+
+    return work
+
+
+def compare_with_run_work(project: Project, run: Predicting) -> Callable[[Progress], Result]:
+    """The work of a job that brings the figures of all images that an earlier run saw up to date."""
+
+    def work(progress: Progress) -> Result:
+        with project.read() as connection:
+            lacking = lacking_comparison(connection, run.id)
+        for done, image_id in enumerate(lacking):
+            progress(done, len(lacking), f"Comparing caps with {run.name}")
+            compare_image(project, image_id, with_run=run.id)
+        return Result(f"{len(lacking)} images compared with {run.name}.")
 
     return work

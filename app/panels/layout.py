@@ -5,6 +5,7 @@ from __future__ import annotations
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import (
+    beside,
     desk,
     gallery,
     history,
@@ -24,7 +25,19 @@ from fairyring.app.panels import (
 from fairyring.app.panels.callbacks import Redrawing
 
 ALL = (
-    *("status", "review", "gallery", "images", "cap", "history", "queue", "desk", "cap_plot", "plots"),
+    *(
+        "status",
+        "review",
+        "gallery",
+        "images",
+        "cap",
+        "history",
+        "queue",
+        "desk",
+        "beside",
+        "cap_plot",
+        "plots",
+    ),
     *("predict", "runs", "learning", "jobs"),
 )
 """The parts that are drawn, in that order."""
@@ -49,6 +62,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["desk"] = desk.build(workspace, session)
             parts["review"] = review.build(workspace, session)
             parts["gallery"] = gallery.build(workspace, session)
+            parts["beside"] = beside.build(workspace, session)
             parts |= plots.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)

@@ -14,7 +14,7 @@ from fairyring.app.jobs.comparing import compare_work
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
-from fairyring.app.panels.markup import Markup, element
+from fairyring.app.panels.markup import EMPTY, Markup, element
 from fairyring.app.panels.status import run_badge
 from fairyring.storage.compared_caps import Kind
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
@@ -23,6 +23,8 @@ from fairyring.storage.records import Run
 from fairyring.storage.review_figures import By, Totals, totals, totals_by, untouched
 
 PAGE = 10
+FIRST = -1.0
+"""Place in the page before all that has no other."""
 ABOUT = (
     "CDR is how far the predicted centre of a cap lies from the marked one, along x as a share of the "
     "image's width plus along y as a share of its height (Eq. 10 of the paper). It shrinks as the image "
@@ -81,6 +83,7 @@ class Review:
 def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the review of the latest run."""
     gui = session.client.gui
+    figures = gui.add_html("", order=FIRST)
     shown = gui.add_html("")
     compare = gui.add_button("Bring up to date", visible=False)
     order = gui.add_dropdown("Order", tuple(ORDERS))
@@ -109,6 +112,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         wanted = Wanted(order=order.value, by=GROUPS[by.value], only_sure=session.only_sure, page=page[0])
         review = await workspace.read(partial(find_review, wanted=wanted))
         page[0] = review.first // PAGE
+        figures.content = review_figures(review).html
         shown.content = review_page(review, session.image.id if session.image else None, wanted).html
         pages.visible = review.total > PAGE
         compare.visible = review.stale > 0
@@ -152,8 +156,21 @@ def find_review(connection: Connection, *, wanted: Wanted) -> Review:
     )
 
 
+def review_figures(review: Review) -> Markup:
+    """What stands first: whose predictions, and the figures of all images."""
+    if review.run is None or review.totals is None or not review.rows:
+        return EMPTY
+    return element(
+        "div",
+        element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
+        _totals(review.totals),
+        element("details", element("summary", "What CDR is"), element("p", ABOUT), class_="fr-quiet"),
+        class_="fr-review",
+    )
+
+
 def review_page(review: Review, current: int | None, wanted: Wanted = USUAL) -> Markup:
-    """Figures, groups of caps, and a page of the images."""
+    """Groups of caps, and a page of the images; or why there is nothing yet."""
     if review.run is None:
         return _hint("No predictions yet; there is nothing to compare with.")
     if not review.rows and review.stale:
@@ -165,9 +182,6 @@ def review_page(review: Review, current: int | None, wanted: Wanted = USUAL) -> 
     last = review.first + len(review.rows)
     return element(
         "div",
-        element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
-        _totals(review.totals),
-        element("details", element("summary", "What CDR is"), element("p", ABOUT), class_="fr-quiet"),
         _groups(review.groups),
         element(
             "table",

@@ -47,7 +47,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         for tab in workspace.tabs:
             if tab.run is not None and tab.run.id == run.id:
                 tab.run = await run_called(new)
-        workspace.refresh("runs", "status", "review", "gallery", "plots")
+        workspace.refresh("runs", "status", "review", "gallery", "beside", "plots")
 
     async def export_it() -> None:
         run = await run_called(chosen.value)

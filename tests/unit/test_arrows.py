@@ -34,7 +34,7 @@ DRAWINGS = {
         judging
         statuses  splits  exported_photos
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
-        repeats
+        repeats  compared_runs
         change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
         db  cap_validity  open_predictions  originals
         serving  whole_folders

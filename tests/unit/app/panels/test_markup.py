@@ -11,7 +11,7 @@ from msgspec import structs
 from fairyring.app.jobs.learnt import Learnt
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
-from fairyring.app.panels import desk, gallery, images, jobs, queue, review, status
+from fairyring.app.panels import beside, desk, gallery, images, jobs, queue, review, status
 from fairyring.app.panels import inspector as cap
 from fairyring.app.panels.inspector import Background
 from fairyring.app.panels.learning import learnt_table
@@ -21,6 +21,7 @@ from fairyring.app.review.queueing import standing_of
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle
 from fairyring.storage.compared_caps import KINDS, CapFigures
+from fairyring.storage.compared_runs import BothRuns, ChangedCap
 from fairyring.storage.comparisons import Comparison, ComparisonRow
 from fairyring.storage.images import ImagePage, ImageRow
 from fairyring.storage.journal import Entry
@@ -97,6 +98,7 @@ FIGURES = Comparison(
 
 
 TOTALS = Totals(measured=1, matched=1, missed=0, extra=0, cdr=0.1, floor=0.05, dx=0.1, dy=-0.2)
+CHANGED = ChangedCap(image=1, file_name=EVIL, annotation=EVIL, before=0.1, after=0.2, floor=None)
 VERDICT = GivenVerdict(
     number=1, image=1, annotation=EVIL, revision=1, says="comment", words=EVIL, user=EVIL, made_at=EVIL
 )
@@ -144,9 +146,21 @@ def every_panel() -> dict[str, str]:
         "summary": cap.summary(session().caps, EVIL).html,
         "several": several_facts([ANNOTATION, PREDICTION]).html,
         "learnt": learnt_table(LEARNT).html,
+        "figures": review.review_figures(reviewed).html,
         "review": review.review_page(reviewed, 1).html,
         "jobs": jobs.job_list([told, running]).html,
         "desk": desk.said_of_image([VERDICT]).html,
+        "beside": beside.beside_page(
+            beside.Beside(
+                others=[EVIL],
+                before=RUN,
+                after=RUN,
+                both=BothRuns(images=1, first=TOTALS, second=TOTALS),
+                changed=[
+                    ChangedCap(image=1, file_name=EVIL, annotation=EVIL, before=0.1, after=0.2, floor=None)
+                ],
+            )
+        ).html,
         "queue": queue.queue_line(QUEUE, standing_of(QUEUE, {}), waiting=0).html,
         "gallery": gallery.gallery("worst", dict.fromkeys(KINDS, 1), [THUMBNAIL], number=0).html,
     }
@@ -170,8 +184,9 @@ def test_no_cdr_is_shown_without_what_the_marks_are_off_by() -> None:
     figures = structs.replace(FIGURES, floor_mean=0.05)
     listed = ComparisonRow(file_name="bed", comparison=figures, stale=False)
     reviewed = review.Review(run=RUN, totals=TOTALS, rows=[listed], total=1)
+    figures = read(review.review_figures(reviewed).html)
+    assert "floor of marks" in figures.text
+    assert "0.050 %" in figures.text
     page = read(review.review_page(reviewed, 1).html)
-    assert "floor of marks" in page.text
-    assert "0.050 %" in page.text
     titles = [value for key, value in page.attributes if key == "title"]
     assert any("CDR 0.10 % (the marks alone 0.050 %)" in title for title in titles)

@@ -7,11 +7,15 @@ from pathlib import Path
 
 import pytest
 
+from fairyring.app.jobs.comparing import compare_with_run_work, compare_work
+from fairyring.app.panels.beside import find_beside
 from fairyring.app.report.page import page_of
 from fairyring.app.review.figures import review_of
 from fairyring.app.review.two_runs import reviews_of_both, side_by_side
 from fairyring.model.errors import FairyringError
 from fairyring.model.geometry.shapes import Circle, fit_of_shape
+from fairyring.model.progress import silent
+from fairyring.storage.compared_runs import lacking_comparison
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run, latest_run
 from fairyring.storage.project import Project, open_project
 from fairyring.storage.records import Run
@@ -91,3 +95,22 @@ def test_a_report_of_one_image_holds_the_tables_of_the_paper_and_its_caps_one_by
     for words in ("(Table 2)", "(Table 3)", "(Table 4)", "bed_1.png: CDR of each cap"):
         assert words in page
     assert "bed_2.png" not in page
+
+
+def test_the_desk_has_both_side_by_side_once_the_earlier_one_was_compared_too(folder: Path) -> None:
+    with open_project(folder) as project:
+        first, second = both(project)
+        compare_work(project)(silent)
+        with project.read() as connection:
+            assert lacking_comparison(connection, first.id) == [1, 2]
+        compare_with_run_work(project, first)(silent)
+        with project.read() as connection:
+            found = find_beside(connection, chosen=first.name)
+            assert lacking_comparison(connection, first.id) == []
+    assert (found.before, found.after, found.lacking) == (first, second, 0)
+    assert found.both is not None
+    assert found.both.images == 1
+    assert found.both.first.cdr == pytest.approx(CDR / 4, abs=0.01)
+    assert found.both.second.cdr == pytest.approx(0.0, abs=0.03)
+    assert found.changed[0].annotation == "cap-1-1"
+    assert found.changed[0].before == pytest.approx(CDR, abs=0.03)

@@ -1,0 +1,168 @@
+"""Another run beside the latest one, so other weights: figures of both, and the caps that changed most."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+from sqlalchemy import Connection
+
+from fairyring.app.jobs.comparing import compare_with_run_work
+from fairyring.app.live.session import Session
+from fairyring.app.live.workspace import Workspace
+from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.markup import Content, Markup, element
+from fairyring.storage.compared_runs import (
+    BothRuns,
+    ChangedCap,
+    both_runs,
+    changed_caps,
+    lacking_comparison,
+)
+from fairyring.storage.predictions import latest_run
+from fairyring.storage.records import Run
+from fairyring.storage.review_figures import Totals
+from fairyring.storage.runs import list_runs, require_run
+
+NOTHING = "nothing"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beside:
+    """What stands side by side."""
+
+    others: list[str]
+    """Names of the runs that could."""
+    before: Run | None = None
+    after: Run | None = None
+    lacking: int = 0
+    """How many images are not compared with the earlier run as they are now."""
+    both: BothRuns | None = None
+    changed: list[ChangedCap] = field(default_factory=list)
+
+
+def build(workspace: Workspace, session: Session) -> Redraw:
+    """Builds the choice of the other run and what stands below it."""
+    gui = session.client.gui
+    with gui.add_folder("Two runs side by side", expand_by_default=False):
+        other = gui.add_dropdown("Beside the latest", [str(NOTHING)])
+        shown = gui.add_html("")
+        compare = gui.add_button("Compare with that run", visible=False)
+
+    async def choose() -> None:
+        session.redraw_at_once(("beside",))
+
+    async def start() -> None:
+        run = await workspace.read(lambda connection: require_run(connection, other.value))
+        work = compare_with_run_work(workspace.project, run)
+        workspace.start_job(session, f"Comparison with {run.name}", work)
+
+    async def redraw() -> None:
+        chosen = None if other.value == NOTHING else other.value
+        found = await workspace.read(partial(find_beside, chosen=chosen))
+        options = (NOTHING, *found.others)
+        if tuple(other.options) != options:
+            other.options = options
+        shown.content = beside_page(found).html
+        compare.visible = found.lacking > 0
+
+    other.on_update(person_did(session, choose))
+    compare.on_click(person_did(session, start))
+    return redraw
+
+
+def find_beside(connection: Connection, *, chosen: str | None) -> Beside:
+    """The figures of the run of this name and of the latest one, on the images that both saw."""
+    latest = latest_run(connection)
+    runs = [row.run for row in list_runs(connection)][::-1]
+    others = [run.name for run in runs if latest is not None and run.id != latest.id]
+    before = next((run for run in runs if run.name == chosen), None)
+    if latest is None or before is None:
+        return Beside(others=others)
+    return Beside(
+        others=others,
+        before=before,
+        after=latest,
+        lacking=len(lacking_comparison(connection, before.id)),
+        both=both_runs(connection, before.id, latest.id),
+        changed=changed_caps(connection, before.id, latest.id),
+    )
+
+
+def beside_page(found: Beside) -> Markup:
+    """Two columns of figures, and the caps that changed most, each leading to its cap."""
+    if found.both is None or found.before is None or found.after is None:
+        words = "Choose an earlier run." if found.others else "There is one run alone."
+        return element("div", words, class_="fr-review fr-quiet")
+    if not found.both.images:
+        return element("div", "No image was compared with both yet.", class_="fr-review fr-quiet")
+    head = element(
+        "tr",
+        element("th", f"{found.both.images} images"),
+        *(element("th", run.name, class_="fr-number") for run in (found.before, found.after)),
+    )
+    return element(
+        "div",
+        element(
+            "table",
+            element("thead", head),
+            element("tbody", *_rows(found.both.first, found.both.second)),
+            class_="fr-list",
+            aria_label="Two runs side by side",
+        ),
+        _changed(found.changed),
+        class_="fr-review",
+    )
+
+
+def _rows(first: Totals, second: Totals) -> list[Markup]:
+    figures: Sequence[tuple[str, Content, Content]] = (
+        ("CDR %", _number(first.cdr), _number(second.cdr)),
+        ("floor %", _number(first.floor), _number(second.floor)),
+        ("Δx, px", _number(first.dx), _number(second.dx)),
+        ("Δy, px", _number(first.dy), _number(second.dy)),
+        ("measured", first.measured, second.measured),
+        ("missed", first.missed, second.missed),
+        ("extra", first.extra, second.extra),
+    )
+    return [
+        element("tr", element("td", name), *(element("td", value, class_="fr-number") for value in values))
+        for name, *values in figures
+    ]
+
+
+def _changed(caps: Sequence[ChangedCap]) -> Markup | None:
+    if not caps:
+        return None
+    rows = (
+        element(
+            "tr",
+            element("td", element("span", cap.file_name, class_="fr-ellipsis", title=cap.annotation)),
+            *(
+                element("td", _number(value), class_="fr-number")
+                for value in (cap.before, cap.after, cap.floor)
+            ),
+            tabindex=0,
+            role="button",
+            data_fairyring_open=cap.image,
+            data_fairyring_select=cap.annotation,
+            data_fairyring_differences=True,
+        )
+        for cap in caps
+    )
+    titles = ("Changed most", "before", "after", "floor")
+    head = (
+        element("th", title, class_=None if nth == 0 else "fr-number") for nth, title in enumerate(titles)
+    )
+    return element(
+        "table",
+        element("thead", element("tr", *head)),
+        element("tbody", *rows),
+        class_="fr-list",
+        aria_label="Caps that changed most",
+    )
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else f"{value:.3f}"
