@@ -12,6 +12,7 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.whole_outlines import derived_of, load_caps, refit
+from fairyring.app.live.many_edits import A_FEW, worker_of_edits
 from fairyring.app.live.repairs import repairs_told
 from fairyring.app.live.session import Session
 from fairyring.app.live.statuses import announce_statuses
@@ -26,8 +27,6 @@ log = logging.getLogger(__name__)
 
 MOST_EDITS = 10_000
 """Most edits of a change set: so many hold the writer for half a second."""
-A_FEW = 20
-"""Change sets of more edits than this do not hold up those who drag a cap."""
 SAY_WORKING_S = 3.0
 """A tab gives up on a connection that says nothing for several times as long."""
 
@@ -113,7 +112,7 @@ async def _derive(workspace: Workspace, session: Session, edits: Sequence[Edit])
         if caps is None or caps.image.id != image_id:
             caps, copy = await anyio.to_thread.run_sync(load_caps, workspace.project, image_id), Copy()
         if caps is not None:
-            worker = workspace.crew.of_image(image_id) if len(of_image) <= A_FEW else workspace.crew.patient
+            worker = worker_of_edits(workspace.crew, image_id, count=len(of_image))
             try:
                 derived = await copy.ask(worker, caps, derived_of, of_image, urgency=URGENT)
             except WorkerError as error:

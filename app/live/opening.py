@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from sqlalchemy import Connection
 
 from fairyring.app.addresses import photo_address
+from fairyring.app.live.many_edits import get_ready
 from fairyring.app.live.missing_outlines import find_outlines_of
 from fairyring.app.live.session import Selection, Session
 from fairyring.app.live.workspace import Workspace
@@ -42,6 +43,7 @@ async def open_image(
         shown = await workspace.read(lambda c: _find(workspace, c, image_id, session))
         _show(session, shown, select=select)
     session.refresh(*CHANGES_IMAGE)
+    get_ready(workspace.crew, session)
     workspace.read_ahead([image.id for image in shown.near[:1]])
 
 

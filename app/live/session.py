@@ -61,6 +61,8 @@ class Session:
     """The image on screen with its caps as they are now."""
     copy: Copy = field(default_factory=Copy)
     """The copy of these caps where fits are worked out."""
+    getting_ready: asyncio.Task[None] | None = None
+    """Fits all of them, before many are accepted at once."""
     run: Run | None = None
     """The run whose predictions are on screen."""
     filter: ImageFilter = field(default_factory=ImageFilter)

@@ -36,6 +36,8 @@ class Crew:
 
     fits: Sequence[Worker]
     """What people wait for with a cap in hand. An image has always the same one, which remembers it."""
+    bulk: Worker
+    """Change sets of many edits: people wait for them, but with no cap in hand."""
     patient: Worker
     """Whole images: before exports, after predictions, against their predictions."""
     photos: Worker
@@ -49,7 +51,7 @@ class Crew:
 
     def close(self) -> None:
         """Ends all of them."""
-        for worker in (*self.fits, self.patient, self.photos, self.network):
+        for worker in (*self.fits, self.bulk, self.patient, self.photos, self.network):
             worker.close()
 
 
@@ -58,6 +60,7 @@ def crew(*, apart: bool) -> Crew:
     count = min(max(usable_cores() - 1, 1), MOST_FOR_FITS)
     return Crew(
         fits=[Worker(f"fits-{number}", nice=A_LITTLE_NICE, apart=apart) for number in range(count)],
+        bulk=Worker("bulk", nice=A_LITTLE_NICE, apart=apart),
         patient=Worker("patient", nice=NICE, apart=apart),
         photos=Worker("photos", nice=NICE, apart=apart),
         # It looks at photos before anybody points, while somebody may have a cap in hand.
