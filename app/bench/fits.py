@@ -20,7 +20,8 @@ from fairyring.app.bench.timing import Row, milliseconds, p95_row, row
 from fairyring.app.caps.fitting import Fitting, Seen, known_statistics
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.caps.whole_outlines import derive_edits, refit
-from fairyring.app.jobs.predicting import network_of, predict_images
+from fairyring.app.jobs.finders import network_of
+from fairyring.app.jobs.predicting import predict_images
 from fairyring.app.protocol import Refit
 from fairyring.app.weights import require_weights
 from fairyring.model.contour.silhouette import silhouette_of_outline

@@ -105,7 +105,7 @@ def clicks(
     Example: `fairyring bench network clicks --real photos --count 2`
     """
     from fairyring.app.bench.network.clicks import click_rows
-    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.finders import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
@@ -132,7 +132,7 @@ def quality(
     Example: `fairyring bench network quality --real photos --count 6`
     """
     from fairyring.app.bench.network.quality import quality_rows
-    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.finders import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     passes = passes_of(fast=fast)
@@ -159,7 +159,7 @@ def wholes(
     Example: `fairyring bench network wholes --real photos --count 6`
     """
     from fairyring.app.bench.network.wholes import whole_rows
-    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.finders import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device).predictor
@@ -188,7 +188,7 @@ def peers(
     Example: `fairyring bench network peers --real photos --count 6`
     """
     from fairyring.app.bench.network.peers import peer_rows
-    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.finders import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device, least_score=0).predictor
@@ -214,7 +214,7 @@ def cost(
     """
     from fairyring.app.bench.network.cost import cost_rows
     from fairyring.app.bench.network.sets import rendered
-    from fairyring.app.jobs.predicting import network_of
+    from fairyring.app.jobs.finders import network_of
     from fairyring.model.predict.shipped import SHIPPED
 
     predictor = network_of(weights or SHIPPED, device=device, passes=passes_of(fast=fast)).predictor

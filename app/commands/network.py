@@ -20,7 +20,7 @@ from fairyring.model.errors import FairyringError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from fairyring.app.jobs.predicting import Finder
+    from fairyring.app.jobs.finders import Finder
     from fairyring.model.predict.passes import Pass
     from fairyring.storage.project import Project
 
@@ -254,7 +254,7 @@ def _finder(
     fast: bool,
 ) -> Finder:
     """The network with the weights that were asked for, else of the project; or a method without weights."""
-    from fairyring.app.jobs.predicting import ByColour, network_of
+    from fairyring.app.jobs.finders import ByColour, network_of
     from fairyring.app.weights import require_weights
     from fairyring.model.predict.shipped import SHIPPED
 

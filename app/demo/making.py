@@ -8,7 +8,8 @@ from functools import partial
 from pathlib import Path
 
 from fairyring.app.demo.begun import Begun, beds_of, begun, begun_in
-from fairyring.app.jobs.predicting import network_of, predict_images
+from fairyring.app.jobs.finders import network_of
+from fairyring.app.jobs.predicting import predict_images
 from fairyring.model.predict.shipped import SHIPPED
 from fairyring.model.progress import Progress, silent
 from fairyring.model.scene.dataset import write_beds

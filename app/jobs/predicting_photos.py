@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from fairyring.app.jobs.predicting import Finder, predictions_in
+from fairyring.app.jobs.finders import Finder
+from fairyring.app.jobs.predicting import predictions_in
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.errors import FairyringError
 from fairyring.model.photo import SUFFIXES, probe

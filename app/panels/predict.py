@@ -157,7 +157,8 @@ def predict_work(
     def work(progress: Progress) -> Result:
         progress(0, len(image_ids), "Loading the network")
         # Torch takes seconds to load, and a project can be served without it.
-        from fairyring.app.jobs.predicting import leave_a_core, network_of, predict_images
+        from fairyring.app.jobs.finders import network_of
+        from fairyring.app.jobs.predicting import leave_a_core, predict_images
 
         leave_a_core()
         network = network_of(require_weights(project), diameter=diameter)

@@ -22,7 +22,8 @@ from fairyring.app.bench.browser.leafing import measured_tab
 from fairyring.app.bench.browser.tab import chromium
 from fairyring.app.bench.serving import served
 from fairyring.app.bench.timing import Row, row
-from fairyring.app.jobs.predicting import network_of, predict_images
+from fairyring.app.jobs.finders import network_of
+from fairyring.app.jobs.predicting import predict_images
 from fairyring.model.coco.document import read_document
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.geometry.shapes import Outline, area_of_outline

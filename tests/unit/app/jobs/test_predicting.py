@@ -18,7 +18,8 @@ from typer.testing import CliRunner
 from fairyring.app.caps.image_caps import caps_of
 from fairyring.app.caps.whole_outlines import derive_edits
 from fairyring.app.cli import app
-from fairyring.app.jobs.predicting import Network, network_of, predict_images
+from fairyring.app.jobs.finders import Network, network_of
+from fairyring.app.jobs.predicting import predict_images
 from fairyring.app.protocol import Cancel, Edits, JobProgress, Notice, Predicted, Select, Show
 from fairyring.app.weights import weights_of
 from fairyring.model.errors import FairyringError
