@@ -21,11 +21,12 @@ from uuid import uuid4
 
 from sqlalchemy import URL, Connection, insert, make_url, select
 
+from fairyring.model.whole_files import written_whole
 from fairyring.storage.db import schema
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.copying import copy_read_only
 from fairyring.storage.db.engine import connect_engine, explained, warn_of_network_drive
-from fairyring.storage.db.upgrade import check_is_project, make_tables, upgrade
+from fairyring.storage.db.upgrade import check_is_project, holds_nothing, make_tables, upgrade
 from fairyring.storage.errors import StoreError
 from fairyring.storage.folder import CACHE, DATABASE, IMAGES, NOTE_OF_BACKUP, SETTINGS, is_project
 from fairyring.storage.originals import Originals
@@ -167,17 +168,37 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
         raise StoreError(f"{folder} is a Fairyring project already; open it, or choose another folder.")
     try:
         if url is None:
-            if (folder / DATABASE).exists():
+            if (folder / DATABASE).exists() and not _is_hardly_begun(folder):
                 check_is_project(folder / DATABASE)
             (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         database = url or _own_database(folder)
-        make_tables(database, source=folder)
+        with _gone_if_stopped(folder / DATABASE):
+            make_tables(database, source=folder)
         (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         _enter_names(database, name=folder.resolve().name, shared=url is not None)
-        (folder / SETTINGS).write_text(_settings(folder.resolve().name, url), encoding="utf-8")
+        with written_whole(folder / SETTINGS) as fresh:
+            fresh.write_text(_settings(folder.resolve().name, url), encoding="utf-8")
     except OSError as error:
         raise StoreError(f"{folder} cannot be made a project: {error.strerror}.") from error
     return open_project(folder)
+
+
+@contextmanager
+def _gone_if_stopped(database: Path) -> Generator[None]:
+    """Removes a database that is made in the block if that is not done."""
+    was_there = database.exists()
+    try:
+        yield
+    except BaseException:
+        if not was_there:
+            database.unlink(missing_ok=True)
+        raise
+
+
+def _is_hardly_begun(folder: Path) -> bool:
+    """Whether somebody who made the folder a project was stopped before anything was in it."""
+    images = folder / IMAGES
+    return holds_nothing(folder / DATABASE) and not (images.is_dir() and any(images.iterdir()))
 
 
 def open_project(folder: Path) -> Project:

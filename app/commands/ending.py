@@ -22,13 +22,19 @@ from fairyring.app.commands.version import version
 from fairyring.model.errors import FairyringError
 
 BEGIN_ANEW = "Nothing was written; the same command begins anew."
+OUTLINES_KEPT = "Nothing was written; whole outlines found so far are kept. The same command goes on."
 UNCHANGED = "Nothing was changed; the same command begins anew."
 AFTER: Mapping[str, str] = MappingProxyType(
     {
-        "init": "A folder may be left that is no project yet; delete it and give the same command again.",
+        "init": "If no project was made, the same command goes on.",
         "import": UNCHANGED,
+        "export": OUTLINES_KEPT,
+        "review": OUTLINES_KEPT,
+        "runs": OUTLINES_KEPT,
         "take-out": UNCHANGED,
         "put-back": UNCHANGED,
+        "split": UNCHANGED,
+        "rules": UNCHANGED,
         "relink": UNCHANGED,
         "demo": "What was made is kept; the same command goes on.",
         "synth": "The beds rendered so far are kept; the same command with --resume goes on.",

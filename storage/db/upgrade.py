@@ -82,6 +82,11 @@ def check_is_project(file: Path) -> str:
     return revision
 
 
+def holds_nothing(file: Path) -> bool:
+    """Whether an SQLite file has been begun, but has no table. Raises StoreError where it is another's."""
+    return file.stat().st_size > 0 and _revision_by(connect_read_only(file), file) is None
+
+
 def _revision_at(url: str | URL, source: Path) -> str:
     revision = _revision_by(connect_engine(url, write=False), source)
     if revision is None:

@@ -5,13 +5,9 @@ Each says what was kept and what to do next, leaves nothing half-written, and wh
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import signal
-import subprocess
-import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,21 +20,14 @@ from fairyring.app.bench.serving import free_port
 from fairyring.storage.backup import back_up
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import create_project, open_project
+from tests.support.descendants import children_of, is_running
 from tests.support.how_much import by_form
+from tests.support.signalled import STOPPED, WITHIN_S, listens, started, wait_until
 
 pytestmark = pytest.mark.timeout(900)
-FAIRYRING = """
-import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from fairyring.app.cli import main
-main()
-"""
-"""As a shell starts it, whatever started the tests: with Ctrl+C as it is by default."""
-STOPPED = 130
 ANEW = "Nothing was written; the same command begins anew."
+OUTLINES_KEPT = "Nothing was written; whole outlines found so far are kept. The same command goes on."
 UNCHANGED = "Nothing was changed; the same command begins anew."
-WITHIN_S = 120
-"""A busy machine takes its time to begin and to end."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +43,7 @@ class Errand:
     """What it says to do next; None for the same again."""
     begun: Callable[[Path], bool] = lambda _folder: True
     """Whether it is in the middle, once it listens to signals."""
+    in_short_form: bool = True
 
 
 def lies_there(name: str) -> Callable[[Path], bool]:
@@ -65,9 +55,9 @@ TRAIN = "train beds --out run --iterations 1 --device cpu --workers 0"
 ERRANDS = (
     Errand(command="import fresh photos", says=UNCHANGED),
     Errand(command="import fresh photos --link", says=UNCHANGED),
-    Errand(command="export beds out", says=ANEW),
-    Errand(command="export beds out --labels-only", says=ANEW),
-    Errand(command="review beds --report review.html", says=ANEW),
+    Errand(command="export beds out", says=OUTLINES_KEPT),
+    Errand(command="export beds out --labels-only", says=OUTLINES_KEPT),
+    Errand(command="review beds --report review.html", says=OUTLINES_KEPT),
     Errand(command="evaluate masks photos/labels.json photos/labels.json", says=ANEW),
     Errand(command="evaluate centres photos/labels.json photos/labels.json", says=ANEW),
     Errand(command="contour photos/labels.json --out centres.json", says=ANEW),
@@ -98,6 +88,10 @@ ERRANDS = (
     ),
     Errand(command="bench scene --quick", says=ANEW),
     Errand(command="bench evaluation --quick", says=ANEW),
+    *(
+        Errand(command=f"bench {bench} --quick", says=ANEW, in_short_form=False)
+        for bench in ("commands", "contour", "fit", "people", "store", "page", "editor", "review", "desk")
+    ),
 )
 
 
@@ -119,33 +113,6 @@ def folder(made: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(made, tmp_path / "here"))
 
 
-def started(folder: Path, command: str) -> subprocess.Popen[str]:
-    (folder.parent / "tmp").mkdir(exist_ok=True)
-    return subprocess.Popen(
-        [sys.executable, "-c", FAIRYRING, *command.split()],
-        cwd=folder,
-        env=os.environ | {"TMPDIR": str(folder.parent / "tmp")},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def wait_until(true: Callable[[], bool], running: subprocess.Popen[str]) -> None:
-    deadline = time.monotonic() + WITHIN_S
-    while not true():
-        assert running.poll() is None, f"It ended by itself: {running.communicate()[1]}"
-        assert time.monotonic() < deadline, "It did not begin."
-        time.sleep(0.02)
-
-
-def listens(running: subprocess.Popen[str]) -> bool:
-    """Whether the process answers SIGTERM itself, as a command does once it is at work."""
-    status = Path(f"/proc/{running.pid}/status").read_text()
-    caught = int(re.findall(r"SigCgt:\s+(\w+)", status)[0], 16)
-    return bool(caught >> (signal.SIGTERM - 1) & 1)
-
-
 def lying_in(folder: Path) -> set[str]:
     """What is in a folder, also within its projects; but for what SQLite keeps beside an open database."""
     return {
@@ -161,7 +128,9 @@ def errands() -> list[Any]:
     return [
         pytest.param(errand, number, id=f"{errand.command}, {number.name}")
         for nth, errand in enumerate(ERRANDS)
-        for number in by_form(short=signals[nth % 2 : nth % 2 + 1], usual=signals, long=signals)
+        for number in by_form(
+            short=signals[nth % 2 : nth % 2 + 1] if errand.in_short_form else (), usual=signals, long=signals
+        )
     ]
 
 
@@ -173,10 +142,12 @@ def test_a_command_that_is_stopped_says_what_was_kept(
     running = started(folder, errand.command)
     wait_until(lambda: listens(running), running)
     wait_until(lambda: errand.begun(folder), running)
+    helpers = children_of(running.pid)
     running.send_signal(number)
     _, said = running.communicate(timeout=WITHIN_S)
     assert running.returncode == STOPPED, said
     assert re.search(errand.says, said), said
+    assert not [helper for helper in helpers if is_running(helper)]
     assert "Traceback" not in said
     left = {path for path in lying_in(folder) - before if path.split("/")[0] not in errand.leaves}
     assert left == set()

@@ -1,11 +1,13 @@
 """Projects are made, opened again, and refused where they are none."""
 
+import itertools
 import logging
 import sqlite3
 from contextlib import closing
 from pathlib import Path
 
 import pytest
+from sqlalchemy import Engine, event
 
 from fairyring.storage.db.engine import warn_of_network_drive
 from fairyring.storage.errors import StoreError
@@ -153,3 +155,31 @@ def test_a_network_drive_is_warned_of(tmp_path, caplog):
     caplog.clear()
     warn_of_network_drive(Path("/usr"), mounts=mounts)
     assert caplog.text == ""
+
+
+@pytest.mark.parametrize("stopped_at", [2, 30, 70, 90])
+def test_making_a_project_goes_on_where_it_was_stopped(tmp_path, stopped_at):
+    statements = itertools.count(1)
+
+    def stop(*_: object) -> None:
+        if next(statements) == stopped_at:
+            raise KeyboardInterrupt
+
+    event.listen(Engine, "before_cursor_execute", stop)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            create_project(tmp_path / "beds")
+    finally:
+        event.remove(Engine, "before_cursor_execute", stop)
+    with create_project(tmp_path / "beds") as project:
+        assert project.name == "beds"
+
+
+def test_a_database_that_lost_its_tables_is_no_new_project_where_there_are_photos(tmp_path):
+    create_project(tmp_path / "beds").close()
+    (tmp_path / "beds/images/bed.png").write_bytes(b"a photo")
+    for name in ("fairyring.toml", "project.db"):
+        (tmp_path / "beds" / name).unlink()
+    (tmp_path / "beds/project.db").touch()
+    with pytest.raises(StoreError, match="is empty; restore it from a backup"):
+        create_project(tmp_path / "beds")
