@@ -13,6 +13,8 @@ from fairyring.model.geometry.told_arcs import check_told_arcs
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Cap
 
+SHOWN = 40
+"""How many characters of a name that is refused are shown."""
 MAX_NAME = 200
 MAX_ORDER = 1_000_000
 
@@ -56,8 +58,16 @@ def check_name(text: str, what: str) -> str:
         StoreError: empty, longer than ``MAX_NAME`` or with control characters.
     """
     if not is_name(text):
-        raise StoreError(f"A {what} is 1 to {MAX_NAME} printable characters.")
+        raise StoreError(f"A {what} is 1 to {MAX_NAME} printable characters; {_what_is_wrong_with(text)}.")
     return text
+
+
+def _what_is_wrong_with(text: str) -> str:
+    if not text:
+        return "this is empty"
+    if len(text) > MAX_NAME:
+        return f"{text[:SHOWN]}… has {len(text)}"
+    return f"{text!r:.{SHOWN}} has others"
 
 
 def are_finite(numbers: Sequence[float]) -> bool:

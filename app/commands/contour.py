@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from fairyring.app.commands.files import named, write_json
+from fairyring.app.commands.files import named, require_other_file, write_json
 from fairyring.app.commands.progress import steps_shown, time_told
 from fairyring.model.contour.method_names import MethodName
 
@@ -29,6 +29,7 @@ def contour(
     from fairyring.model.contour.coco import contour_document
     from fairyring.model.contour.priors import DEFAULT, read_priors
 
+    require_other_file(out, masks, *([priors] if priors else ()))
     document = read_document(masks)
     chosen = read_priors(priors) if priors else DEFAULT
     with steps_shown() as progress, named(masks):
@@ -52,6 +53,7 @@ def priors(
     from fairyring.model.contour.estimate import estimate_priors
     from fairyring.model.contour.priors import write_priors
 
+    require_other_file(out, labels)
     document = read_document(labels)
     with named(labels), time_told("Estimating priors"):
         found = estimate_priors(document, source=labels.name)

@@ -103,7 +103,7 @@ def centres(
         runs = _evaluated_runs(files[:-1], files[-1], pairing)
     figures = [run.figures for run in runs]
     for each in figures:
-        _warn_of_strange_ids(each)
+        _warn_of_strange_ids(each, by)
     difference = difference_of(*runs) if len(runs) == 2 else None
     if as_json:
         typer.echo(msgspec.json.encode(figures[0] if difference is None else of_two(figures, difference)))
@@ -158,7 +158,12 @@ def _tell_of_images(figures: dict[str, Any], predicted: Path | None) -> None:
         typer.echo(sentence if predicted is None else f"{predicted}: {sentence}", err=True)
 
 
-def _warn_of_strange_ids(figures: dict[str, Any]) -> None:
+def _warn_of_strange_ids(figures: dict[str, Any], by: PairBy) -> None:
+    if by is PairBy.id and not figures["matched"] and figures["missed"] and figures["extra"]:
+        typer.echo(
+            "No image has an id in both files: their ids are not of the same caps. --by iou pairs by mask.",
+            err=True,
+        )
     if figures["pairing"]["apart"] > figures["matched"] / 2:
         typer.echo(
             f"Of {figures['matched']} caps paired by id {figures['pairing']['apart']} lie further apart than "

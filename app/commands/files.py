@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import typer
+
 from fairyring.model.errors import FairyringError, FileError
 from fairyring.model.whole_files import written_whole
 
@@ -26,6 +28,12 @@ def write_bytes(data: bytes, path: Path) -> None:
             fresh.write_bytes(data)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}.") from error
+
+
+def require_other_file(out: Path, *read: Path, option: str = "--out") -> None:
+    """Raises BadParameter where a command would write over a file that it reads."""
+    if any(path.exists() and out.exists() and path.samefile(out) for path in read):
+        raise typer.BadParameter(f"{out} is read by this command; name another file.", param_hint=option)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ from unicodedata import normalize
 
 import typer
 
+from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from fairyring.storage.taken_out import TakenOut
 
 Names = Annotated[list[str], typer.Argument(metavar="NAME...", help="File names, or patterns such as bed_*.")]
-By = Annotated[str, typer.Option("--by", metavar="NAME", help="Who does it.")]
+By = Annotated[str, typer.Option("--by", metavar="NAME", help="Who does it.", callback=checked_name("user"))]
 
 
 def take_out(folder: ProjectFolder, names: Names, *, by: By = "command", as_json: AsJson = False) -> None:

@@ -37,6 +37,12 @@ def print_report(
             f"{report.boxes} boxes without an outline are rectangles now, and doubtful: correct their rims.",
             err=True,
         )
+    if known_caps is KnownCaps.tell and report.images_otherwise:
+        typer.echo(
+            f"Left as they are: {report.images_otherwise} images of which the files say another light, form "
+            "or split; --update takes it.",
+            err=True,
+        )
     if known_caps is KnownCaps.tell and (report.changed or report.gone):
         typer.echo(_untaken(report), err=True)
     if report.useless:
@@ -79,6 +85,7 @@ def _print_figures(report: ImportReport, *, as_json: bool) -> None:
         "changed": report.changed,
         "same": report.known - report.changed,
         "gone": report.gone,
+        "images_otherwise": report.images_otherwise,
         "edits": report.edits,
         "problems": len(report.problems),
     }

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fairyring.app.commands.import_report import print_report
+from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson
@@ -50,7 +51,9 @@ def import_(
         bool, typer.Option("--replace", help="The same, and delete caps of these images that no file has.")
     ] = False,
     keep: Annotated[bool, typer.Option("--keep", help="Leave known caps as they are.")] = False,
-    by: Annotated[str, typer.Option(metavar="NAME", help="Whom the journal names.")] = "import",
+    by: Annotated[
+        str, typer.Option(metavar="NAME", help="Whom the journal names.", callback=checked_name("user"))
+    ] = "import",
     strict: Annotated[bool, typer.Option(help="Take nothing if anything is wrong.")] = False,
     link: Annotated[bool, typer.Option(help="Leave the images where they are; do not copy.")] = False,
     light: Annotated[LightSource | None, typer.Option(help="Light source of these images.")] = None,

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.files import write_json
+from fairyring.app.commands.files import require_other_file, write_json
 from fairyring.app.commands.images import images_called
+from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import shown_on_stderr, steps_shown
 from fairyring.app.commands.rows import AsJson
 from fairyring.app.commands.stopping import INTERRUPTED, stopped_by_sigterm
@@ -179,7 +180,12 @@ def predict(
     fast: Fast = False,
     redo: Annotated[bool, typer.Option(help="Predict images anew that these weights have seen.")] = False,
     name: Annotated[
-        str | None, typer.Option("--name", help="What the run is called; else after its weights.")
+        str | None,
+        typer.Option(
+            "--name",
+            help="What the run is called; else after its weights.",
+            callback=checked_name("run"),
+        ),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -286,6 +292,7 @@ def _predict_photos(
     from fairyring.app.jobs.predicting_photos import photos_at, predict_photos
 
     photos = photos_at(sources)
+    require_other_file(out, *photos)
     finder = _finder(
         method, weights, None, device=device, least_score=least_score, diameter=diameter, fast=fast
     )

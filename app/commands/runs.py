@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
@@ -66,7 +67,10 @@ def show(folder: ProjectFolder, run: NamedRun, *, as_json: AsJson = False) -> No
 def rename(
     folder: ProjectFolder,
     run: NamedRun,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="What it is to be called.")],
+    name: Annotated[
+        str,
+        typer.Argument(metavar="NAME", help="What it is to be called.", callback=checked_name("run")),
+    ],
 ) -> None:
     """Give a run another name.
 

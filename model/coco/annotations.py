@@ -166,10 +166,17 @@ def box_of(entry: Entry) -> tuple[float, float, float, float] | None:
 
 
 def outline_of_box(entry: Entry) -> Outline | None:
-    """The rectangle of an annotation that has a bbox and nothing closer; None where there is none either."""
+    """The rectangle of an annotation that has a bbox and nothing closer; None where there is none either.
+
+    Raises ValueRefusedError where the box has no area: a turned one may have its corner elsewhere.
+    """
     box = box_of(entry)
     if box is None or drawn_of(entry) is not None:
         return None
+    if min(box[2:]) <= 0:
+        raise ValueRefusedError(
+            f"Its bbox is {box[2]:g} wide and {box[3]:g} high; after x and y it needs both above 0."
+        )
     return [rectangle(*box)]
 
 

@@ -28,7 +28,9 @@ def name_of_category(entry: dict[str, Any]) -> str:
     """The name of a category. Raises ValueRefusedError where that is no short printable line."""
     name = entry.get("name")
     if not isinstance(name, str) or not name.isprintable() or not 0 < len(name) <= MOST_LETTERS:
-        raise ValueRefusedError(f"The name of category {shown(entry.get('id'))} is no short line of text.")
+        whose = f"The name of category {shown(entry.get('id'))}"
+        longer = f", but of {len(name)}" if isinstance(name, str) and len(name) > MOST_LETTERS else ""
+        raise ValueRefusedError(f"{whose} is not a line of 1 to {MOST_LETTERS} letters{longer}.")
     return name
 
 

@@ -46,6 +46,8 @@ class CapRecord(Struct, frozen=True, kw_only=True):
     """The visible pixels; None where caps are paired by id."""
     score: float = 1.0
     """Score of a prediction, finite."""
+    is_scored: bool = False
+    """Whether its file gives it a score."""
     centre: Centre | None = None
     """Centre, pixels; None where nobody marked it, or a method refused it."""
     diameter: float | None = None
@@ -80,6 +82,7 @@ def cap_of(entry: Entry, *, width: int, height: int, masks: bool, centres: bool)
         rle=rle,
         # A shape without a score was drawn by somebody who was sure.
         score=1.0 if score is None else score,
+        is_scored=score is not None,
         centre=_centre(entry, whole, width=width, height=height) if centres else None,
         diameter=diameter_of_shape(whole) if whole else _longer_side(entry) if centres else None,
         ignored=is_ignored(entry),

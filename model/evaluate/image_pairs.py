@@ -20,7 +20,7 @@ MOST_NAMED = 3
 
 
 class Pairing(Struct, frozen=True, kw_only=True):
-    """The images that were not compared, or under another name, for people to look at."""
+    """Images that were not compared, or under another name, and what looks strange, for people to see."""
 
     unpredicted: list[str] = []
     """Images of the truth that the predictions do not list; all their caps are missed."""
@@ -28,10 +28,17 @@ class Pairing(Struct, frozen=True, kw_only=True):
     """Images of the predictions that the truth does not list; they do not count."""
     renamed: dict[str, str] = {}
     """Names in the predictions that were taken for others in the truth."""
+    swapped: bool = False
+    """Whether all of the truth carries scores, as predictions do, and nothing of the predictions."""
 
     def sentences(self) -> list[str]:
         """What somebody should hear of it."""
         told = []
+        if self.swapped:
+            told.append(
+                "Every cap of the truth carries a score and none of the predictions: "
+                "have they been swapped? The truth comes last."
+            )
         if self.unpredicted:
             told.append(
                 f"The predictions lack {_listed(self.unpredicted)} of the truth; their caps count as missed."

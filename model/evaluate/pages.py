@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Literal, NoReturn
 
-from msgspec import Struct
+from msgspec import Struct, structs
 
 from fairyring.model.coco.document import Document, annotations_by_image, objects_of
 from fairyring.model.coco.faults import Fault, Reported, place_of
@@ -119,7 +119,14 @@ def pages_of(predicted: Document, truth: Truth) -> Paged:
             indices = of_prediction.get(other.id, []) if other else []
             guesses = _caps(predicted, indices, name, image, masks=truth.masks, centres=truth.centres)
         pages.append(_page(name, image, truths, guesses))
-    return Paged(pages=pages, pairing=pairing)
+    return Paged(pages=pages, pairing=structs.replace(pairing, swapped=_seem_swapped(pages)))
+
+
+def _seem_swapped(pages: list[Page]) -> bool:
+    truths = [cap.is_scored for page in pages for cap in page.truths]
+    return (
+        any(truths) and all(truths) and not any(cap.is_scored for page in pages for cap in page.predictions)
+    )
 
 
 def _partners(

@@ -13,6 +13,8 @@ from typing import Any
 from msgspec import UNSET, structs
 
 from fairyring.model.coco.annotations import (
+    DOUBTFUL,
+    IGNORED,
     TOLD_ARCS,
     Entry,
     centre_of,
@@ -79,7 +81,7 @@ def parse_coco(data: bytes, *, file: str) -> Found:
     images = _images(document, faults) if document.images is not None else _images_of_results(document)
     caps = _caps(document, images, categories, faults)
     require_pixels(cap for of_image in caps.values() for cap in of_image)
-    named = _categories(categories, faults)
+    named = _categories(document, categories, faults)
     return Found(
         file=file,
         images=[structs.replace(image, caps=caps.get(own, [])) for own, image in images.items()],
@@ -220,6 +222,9 @@ def _cap(entry: Entry, where: str, category: str, faults: list[Fault]) -> FoundC
         centre_sd=centre_sd_of(entry),
         uid=entry["uid"] if isinstance(entry.get("uid"), str) else None,
         id=own if isinstance(own := own_id(entry), int) else None,
+        tells_ignored=any(key in entry for key in IGNORED),
+        # Exports of ours write it where it holds.
+        tells_doubtful=box is None and ("marked" in entry or any(key in entry for key in DOUBTFUL)),
         is_mask=isinstance(segmentation, dict),
         is_box=box is not None,
         rle=segmentation if isinstance(segmentation, dict) else None,
@@ -258,12 +263,21 @@ def _licenses(document: Document) -> dict[Id | None, Any]:
     return licenses
 
 
-def _categories(categories: dict[Id, dict[str, Any]], faults: list[Fault]) -> dict[str, FoundCategory]:
-    """The categories by name; of several with one name the first."""
+def _categories(
+    document: Document, with_id: dict[Id, dict[str, Any]], faults: list[Fault]
+) -> dict[str, FoundCategory]:
+    """The categories by name, also those without an id; of several with one name or one id the first."""
+    listed = document.others.get("categories")
+    entries = listed if isinstance(listed, list) else []
     named: dict[str, FoundCategory] = {}
-    for own, entry in categories.items():
-        with Reported(f"category {shown(own)}", faults.append):
+    for _, where, entry in objects_of("category", entries, report=faults.append):
+        own = id_of(entry.get("id"))
+        with Reported(where, faults.append):
             name = name_of_category(entry)
+            if own is None:
+                faults.append(Fault(where, f"{name} has no id, so nothing can be of it; it gets one here."))
+            elif with_id[own] != entry:
+                raise ValueRefusedError(f"Another category has its id; {name} was left out.")
             extra = _kept(_others(entry, CATEGORY_KEYS), f"category {name}", faults)
             named.setdefault(name, FoundCategory(id=own if isinstance(own, int) else None, extra=extra))
     return named

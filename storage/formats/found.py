@@ -38,6 +38,10 @@ class FoundCap(Struct, frozen=True, kw_only=True):
     id: int | None = None
     """Its number in the file."""
     file: str = ""
+    tells_ignored: bool = False
+    """Whether the file says that it is to be ignored or not; else it may just not know of that."""
+    tells_doubtful: bool = False
+    """Likewise."""
     is_mask: bool = False
     """Whether its outline was traced from a mask."""
     is_box: bool = False

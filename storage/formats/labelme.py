@@ -82,7 +82,8 @@ class _Shape:
             raise ValueRefusedError("It has no points.")
         label, group = entry.get("label"), entry.get("group_id")
         if not isinstance(label, str) or not label.isprintable() or not 0 < len(label) <= MAX_NAME:
-            raise ValueRefusedError("The label is not a short line of text.")
+            longer = f", but of {len(label)}" if isinstance(label, str) and len(label) > MAX_NAME else ""
+            raise ValueRefusedError(f"The label is not a line of 1 to {MAX_NAME} letters{longer}.")
         self.where = where
         self.label = label
         self.group = group if type(group) in (int, str) else None

@@ -13,13 +13,14 @@ from fairyring.storage.importing.photos import Photo
 
 
 def in_one_split(
-    photos: Sequence[Photo], said: Mapping[int, Sequence[str]]
+    photos: Sequence[Photo], said: Mapping[int, Sequence[str]], *, update: bool = False
 ) -> tuple[list[Photo], list[Problem]]:
     """The photos, those of one file in one split: where the project has it, else where it is held out.
 
     Args:
         photos: all that an import can speak of.
         said: the splits that files and folders say of some of them, by their place in ``photos``.
+        update: what is said counts also of photos that the project has in another split.
     """
     alike: defaultdict[str, list[int]] = defaultdict(list)
     for place, photo in enumerate(photos):
@@ -31,9 +32,11 @@ def in_one_split(
         words = {word for copy in copies for word in said.get(copy, ())}
         if not words:
             continue
-        split = next(filter(None, known), None) or _strictest(words)
+        split = next(filter(None, known), None)
+        if split is None or update:
+            split = _strictest(words)
         for copy in copies:
-            own = photos[copy].split if photos[copy].id is not None else None
+            own = photos[copy].split if photos[copy].id is not None and not update else None
             settled[copy] = structs.replace(photos[copy], split=own or split)
         if len({*words, split}) > 1 and (len(words) > 1 or len(copies) > 1):
             problems.append(_told_apart([photos[copy] for copy in copies], words, split))

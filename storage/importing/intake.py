@@ -54,6 +54,8 @@ class Intake(Struct, kw_only=True):
     """Names of photos of the project that follow what is said of a copy of theirs."""
     useless: list[str] = field(default_factory=list)
     """Files of labels of which no label can be used."""
+    told_otherwise: list[str] = field(default_factory=list)
+    """Names of photos of the project of whose light, form or split files say something else."""
 
     @property
     def new_photos(self) -> list[Photo]:
@@ -69,6 +71,7 @@ def take_in(
     scratch: Path | None = None,
     unsaid: Facts = NOTHING_SAID,
     split_of: SplitOf = folders_say_nothing,
+    update: bool = False,
     progress: Progress,
 ) -> Intake:
     """Checks every photo, and every cap against its photo.
@@ -80,6 +83,7 @@ def take_in(
         scratch: a folder for photos that lie within files of labels; None leaves them there.
         unsaid: what holds of photos where their file does not say otherwise.
         split_of: the split of a photo by the folders it lies in.
+        update: what files say of photos counts also where the project says something else.
         progress: called once a photo.
     """
     taking = _Taking(
@@ -89,6 +93,7 @@ def take_in(
         scratch=scratch,
         unsaid=unsaid,
         split_of=split_of,
+        update=update,
     )
     tasks: list[tuple[str, str, Callable[[], None]]] = [
         (str(path), "", lambda path=path: _take_photo(taking, path)) for path in sources.photos
@@ -129,6 +134,8 @@ class _Taking(Struct, kw_only=True):
     scratch: Path | None
     unsaid: Facts
     split_of: SplitOf
+    update: bool
+    told_otherwise: set[int] = field(default_factory=set)
     seen: set[int] = field(default_factory=set)
     caps: dict[int, list[FoundCap]] = field(default_factory=dict)
     splits: dict[int, list[str]] = field(default_factory=dict)
@@ -145,7 +152,8 @@ class _Taking(Struct, kw_only=True):
 
 def _taken(taking: _Taking, sources: Sources) -> Intake:
     photos = named_apart(taking.index.photos)
-    settled, in_two = in_one_split(photos, taking.splits)
+    in_others = _in_others(taking, photos)
+    settled, in_two = in_one_split(photos, taking.splits, update=taking.update)
     follow = {
         photo.file_name
         for photo, before in zip(settled, photos, strict=True)
@@ -163,7 +171,17 @@ def _taken(taking: _Taking, sources: Sources) -> Intake:
         problems=[*taking.problems, *in_two],
         copies=follow,
         useless=[*sources.unreadable, *without_labels],
+        told_otherwise=sorted(photos[nth].file_name for nth in taking.told_otherwise | in_others),
     )
+
+
+def _in_others(taking: _Taking, photos: Sequence[Photo]) -> set[int]:
+    """The photos of the project that files and folders put into other splits than it does."""
+    return {
+        nth
+        for nth, said in taking.splits.items()
+        if photos[nth].id is not None and photos[nth].split is not None and photos[nth].split not in said
+    }
 
 
 def _take_photo(taking: _Taking, path: Path) -> None:
@@ -183,7 +201,9 @@ def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None
     if image.called is None and image.id is not None:
         taking.numbered.setdefault(image.id, set()).add(nth)
     photos = taking.index.photos
-    photos[nth] = _told_more(photos[nth], image, taking.unsaid)
+    if _says_otherwise(photos[nth], image):
+        taking.told_otherwise.add(nth)
+    photos[nth] = _told_more(photos[nth], image, taking.unsaid, update=taking.update)
     _note_split(taking, nth, image.split or _split_by_folders(taking, photos[nth], image))
     taking.seen.add(nth)
     caps, problems = check_caps(image.caps, photo=photos[nth], file=str(document.path))
@@ -204,8 +224,14 @@ def _split_by_folders(taking: _Taking, photo: Photo, image: FoundImage) -> str |
     return lies_in or split_in_name(image.file_name)
 
 
-def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
-    """The photo with what a file says of it; an import changes nothing that the project knows already."""
+def _says_otherwise(photo: Photo, image: FoundImage) -> bool:
+    """Whether a file says another light or form of a photo than the project does."""
+    pairs = (photo.light, image.light), (photo.form, image.form)
+    return photo.id is not None and any(ours and said and ours != said for ours, said in pairs)
+
+
+def _told_more(photo: Photo, image: FoundImage, unsaid: Facts, *, update: bool) -> Photo:
+    """The photo with what a file says of it; what the project knows already is changed by an update alone."""
     said = image.status or unsaid.status
     status = said if photo.status in (None, "new") else photo.status
     if photo.id is None:
@@ -219,8 +245,8 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts) -> Photo:
         )
     return structs.replace(
         photo,
-        light=photo.light or image.light,
-        form=photo.form or image.form,
+        light=(image.light or photo.light) if update else (photo.light or image.light),
+        form=(image.form or photo.form) if update else (photo.form or image.form),
         status=status or photo.status,
         extra=image.extra | photo.extra,
     )

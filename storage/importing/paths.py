@@ -72,6 +72,7 @@ def import_paths(
             scratch=Path(scratch),
             unsaid=unsaid,
             split_of=split_folders(paths),
+            update=known_caps in (KnownCaps.update, KnownCaps.replace),
             progress=progress,
         )
         if as_ == ImportAs.predictions:

@@ -56,6 +56,8 @@ class ImportReport(Struct, frozen=True, kw_only=True):
     boxes: int = 0
     """How many of the new ones are boxes, to be corrected."""
     problems: list[Problem]
+    images_otherwise: int = 0
+    """Of how many known images the files say another light, form or split."""
     useless: list[str] = []
     """Files of labels of which no label could be used."""
 
@@ -90,6 +92,7 @@ def store(connection: Connection, parcel: Parcel, copies: Staging) -> ImportRepo
         polygons=sum(document.found.polygons for document in parcel.sources.documents),
         problems=intake.problems,
         useless=intake.useless,
+        images_otherwise=len(intake.told_otherwise),
     )
     if parcel.compared is None:
         report = _store_predictions(connection, parcel, photos, report)

@@ -151,3 +151,17 @@ def test_a_method_is_compared_with_the_default_cap_by_cap():
     assert more == pytest.approx(rows["enclosing"]["cdr_mean"] - rows["map"]["cdr_mean"], abs=2e-4)
     low, high = map(float, rows["enclosing"]["over_map_95"].split(" to "))
     assert low - 0.001 <= more <= high + 0.001
+
+
+def test_no_command_writes_over_what_it_reads(masks: Path, tmp_path: Path) -> None:
+    before = masks.read_bytes()
+    (tmp_path / "link.json.gz").symlink_to(masks)
+    for words in (
+        ("contour", masks, "--out", masks),
+        ("contour", masks, "--out", tmp_path / "link.json.gz"),
+        ("contour", masks, "--priors", tmp_path / "link.json.gz", "--out", tmp_path / "link.json.gz"),
+        ("priors", masks, "--out", masks),
+    ):
+        told = invoke(*words)
+        assert (told.exit_code, "is read by this command" in told.stderr) == (2, True)
+    assert masks.read_bytes() == before

@@ -173,3 +173,23 @@ def test_what_cannot_be_meant_is_wrong_use(truth: Path) -> None:
     assert (alone.exit_code, overlap.exit_code) == (2, 2)
     assert "last the truth" in alone.stderr
     assert "no mask is read" in overlap.stderr
+
+
+@pytest.mark.parametrize("what", ["masks", "centres"])
+def test_files_in_the_wrong_order_are_told(what: str, truth: Path, tmp_path: Path) -> None:
+    predicted = tmp_path / "predicted.json"
+    predicted.write_text(json.dumps(bed(0, 100, score=0.75)))
+    assert "have they been swapped?" in invoke(what, truth, predicted).stderr
+    for right in ((predicted, truth), (truth, truth), (predicted, predicted)):
+        assert "swapped" not in invoke(what, *right).stderr
+
+
+def test_ids_that_no_image_has_in_both_files_are_told(tmp_path: Path) -> None:
+    for name, shift in (("a.json", 0), ("b.json", 1)):
+        document = bed(0, 100)
+        for annotation in document["annotations"]:
+            annotation["id"] += shift
+        (tmp_path / name).write_text(json.dumps(document))
+    told = invoke("centres", tmp_path / "a.json", tmp_path / "b.json", "--by", "id")
+    assert "0 matched" in told.stdout
+    assert "No image has an id in both files" in told.stderr

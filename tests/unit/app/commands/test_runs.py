@@ -85,3 +85,20 @@ def test_one_is_exported_by_name_with_results_that_pycocotools_loads(beds: Path,
 def test_what_writes_no_predictions_is_refused(beds: Path, tmp_path: Path, options: tuple[str, ...]) -> None:
     assert fairyring("export", beds, tmp_path / "out", *options).exit_code == 2
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("runs", "rename", "beds", "old", ""), "this is empty"),
+        (("runs", "rename", "beds", "old", "x" * 300), "has 300"),
+        (("import", "beds", "photo.png", "--by", ""), "this is empty"),
+        (("take-out", "beds", "bed.png", "--by", "two\nlines"), "has others"),
+        (("predict", "beds", "--name", ""), "this is empty"),
+    ],
+)
+def test_a_name_that_is_none_is_wrong_use(words: tuple[str, ...], reason: str) -> None:
+    told = fairyring(*words)
+    assert told.exit_code == 2
+    assert "1 to 200 printable characters" in told.stderr
+    assert reason in told.stderr

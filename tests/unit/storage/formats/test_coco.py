@@ -220,7 +220,34 @@ def test_a_category_without_a_name_is_reported_also_where_no_cap_is_of_it():
     categories = [{"id": 1, "name": "mushroom"}, {"id": 2, "name": 7}]
     found = parse([{"segmentation": [SQUARE]}], categories=categories)
     assert found.categories == {"mushroom": FoundCategory(id=1)}
-    assert reasons(found) == [("category 2", "The name of category 2 is no short line of text.")]
+    assert reasons(found) == [("category 2", "The name of category 2 is not a line of 1 to 200 letters.")]
+
+
+def test_categories_without_an_id_or_with_that_of_another_are_told():
+    categories = [{"id": 1, "name": "mushroom"}, {"name": "stalk", "note": "rare"}, {"id": 1, "name": "soil"}]
+    found = parse([{"segmentation": [SQUARE]}], categories=categories)
+    assert found.categories == {
+        "mushroom": FoundCategory(id=1),
+        "stalk": FoundCategory(extra={"note": "rare"}),
+    }
+    assert reasons(found) == [
+        ("category at place 2", "stalk has no id, so nothing can be of it; it gets one here."),
+        ("category 1", "Another category has its id; soil was left out."),
+    ]
+
+
+@pytest.mark.parametrize("box", [[50, 50, -20, 10], [50, 50, 20, -10], [50, 50, 0, 10]])
+def test_a_box_that_is_turned_or_has_no_area_is_not_guessed_at(box):
+    found = parse([{"bbox": box}])
+    assert found.images[0].caps == []
+    assert [reason.split(";")[1] for _, reason in reasons(found)] == [" after x and y it needs both above 0."]
+
+
+def test_how_long_a_name_is_that_is_too_long_is_told():
+    found = parse([], categories=[{"id": 1, "name": "x" * 300}])
+    assert reasons(found) == [
+        ("category 1", "The name of category 1 is not a line of 1 to 200 letters, but of 300.")
+    ]
 
 
 def test_an_unknown_light_does_not_keep_the_image_out():

@@ -242,3 +242,24 @@ def test_a_cap_that_somebody_deleted_stays_so_whatever_another_tool_calls_it(thr
     assert (report.annotations, report.edits) == (0, 1)
     (back,) = [each for each in annotations_of(beds) if each.uid == first.uid]
     assert back.cap == changed
+
+
+def test_a_cap_counts_again_and_is_sure_again_where_a_file_says_so(beds, out, square):
+    store(beds, Cap(visible=square, ignored=True, doubtful=True))
+    document = export(beds, out, with_ignored=True)
+    (entry,) = document["annotations"]
+    assert (entry["iscrowd"], entry["ignored"], entry["doubt"]) == (1, True, True)
+    for key in ("ignored", "doubt"):
+        del entry[key]
+    entry["iscrowd"] = 0
+    (out / "instances.json").write_text(json.dumps(document))
+    assert import_paths(beds, [out / "instances.json"]).changed == 1
+    assert import_paths(beds, [out / "instances.json"], known_caps=KnownCaps.update).edits == 1
+    (annotation,) = annotations_of(beds)
+    assert (annotation.cap.ignored, annotation.cap.doubtful) == (False, False)
+
+
+def test_a_file_that_does_not_know_of_doubt_leaves_it(beds, square, write_coco):
+    store(beds, Cap(visible=square, doubtful=True))
+    file = write_coco([{"segmentation": square}])
+    assert import_paths(beds, [file], known_caps=KnownCaps.update).edits == 0

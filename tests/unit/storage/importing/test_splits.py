@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from fairyring.storage.choices import KnownCaps
 from fairyring.storage.images import ImageFilter, get_image, list_ids
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import Project
@@ -130,3 +131,21 @@ def test_a_copy_of_a_photo_of_the_project_follows_it_and_it_follows_a_copy(
     (problem,) = import_paths(project, [tmp_path / "set"]).problems
     assert "it is train now" in problem.reason
     assert splits(project) == {"a.jpg": "train", "b.jpg": "val", "copy_0.jpg": "train", "copy_1.jpg": "val"}
+
+
+def test_another_split_of_a_file_is_told_and_comes_in_with_an_update(
+    project: Project, tmp_path: Path
+) -> None:
+    photo(tmp_path / "a.jpg")
+    labels = write(
+        tmp_path / "labels.json", document([image(1, "a.jpg", split="train", light="top")], caps())
+    )
+    assert import_paths(project, [labels]).images_otherwise == 0
+    write(labels, document([image(1, "a.jpg", split="test", light="side")], caps()))
+    assert import_paths(project, [labels]).images_otherwise == 1
+    assert splits(project) == {"a.jpg": "train"}
+    assert import_paths(project, [labels], known_caps=KnownCaps.update).images_otherwise == 1
+    with project.read() as connection:
+        updated = get_image(connection, 1)
+    assert (updated.split, updated.light) == ("test", "side")
+    assert import_paths(project, [labels]).images_otherwise == 0
