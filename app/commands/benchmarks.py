@@ -75,7 +75,12 @@ def editor(*, quick: Quick = False, as_json: AsJson = False) -> None:
 
 
 @commands.command()
-def review(*, quick: Quick = False, as_json: AsJson = False) -> None:
+def review(
+    *,
+    quick: Quick = False,
+    seed: Annotated[int, typer.Option(help="Of the beds that are rendered.", min=0)] = 3005,
+    as_json: AsJson = False,
+) -> None:
     """Correct a bed of 60 caps and one of 214 in headless Chromium: inputs, a person's time, quality reached.
 
     Example: `fairyring bench review --json`
@@ -83,7 +88,7 @@ def review(*, quick: Quick = False, as_json: AsJson = False) -> None:
     with driving_a_browser():
         from fairyring.app.bench.browser.review import review_rows
 
-    print_rows("review", review_rows(quick=quick), as_json=as_json)
+    print_rows("review", review_rows(quick=quick, seed=seed), as_json=as_json)
 
 
 @commands.command()
