@@ -1,14 +1,12 @@
 """Change sets of many edits: who works them out, without holding up those who drag a cap, and at once.
 
 Somebody who opens an image with many open predictions is likely to accept most of them in one step. The
-process that will have to fit them gets to know the image while it is looked at, and so does the one
-for single caps.
+process that will have to fit them gets to know the image while it is looked at.
 """
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
 from contextlib import suppress
 
 from fairyring.app.caps.image_caps import ImageCaps
@@ -18,6 +16,8 @@ from fairyring.app.workers.worker import LAST, Worker, WorkerError
 
 A_FEW = 20
 """Change sets of more edits than this are many."""
+STAYS_S = 1.0
+"""Who looks at an image for so long stays on it."""
 
 
 def worker_of_edits(crew: Crew, image_id: int, *, count: int) -> Worker:
@@ -26,18 +26,27 @@ def worker_of_edits(crew: Crew, image_id: int, *, count: int) -> Worker:
 
 
 def get_ready(crew: Crew, session: Session) -> None:
-    """Has the image on screen fitted by those who will be asked about it, in place of the one before it."""
+    """Tells those who will be asked about the image on screen of it, in place of the one before it.
+
+    Who leafs through images does not wait for that: it begins once somebody stays on one.
+    """
     if session.getting_ready is not None:
         session.getting_ready.cancel()
     if (caps := session.caps) is not None:
-        workers = [crew.of_image(caps.image.id), *([crew.bulk] if len(caps.predictions) > A_FEW else [])]
-        session.getting_ready = asyncio.create_task(_get_ready(workers, session, caps))
+        session.getting_ready = asyncio.create_task(_get_ready(crew, session, caps))
 
 
-async def _get_ready(workers: Sequence[Worker], session: Session, caps: ImageCaps) -> None:
-    for worker in workers:
-        with suppress(WorkerError):
-            await session.copy.ask(worker, caps, fit_all, urgency=LAST)
+async def _get_ready(crew: Crew, session: Session, caps: ImageCaps) -> None:
+    await asyncio.sleep(STAYS_S)
+    with suppress(WorkerError):
+        # A cap in hand is fitted among its neighbours alone, so nothing but the caps is handed over.
+        await session.copy.ask(crew.of_image(caps.image.id), caps, take_note, urgency=LAST)
+        if len(caps.predictions) > A_FEW:
+            await session.copy.ask(crew.bulk, caps, fit_all, urgency=LAST)
+
+
+def take_note(_caps: ImageCaps) -> None:
+    """Does nothing more: a process that is asked about caps has begun, and keeps them."""
 
 
 def fit_all(caps: ImageCaps) -> None:

@@ -11,15 +11,19 @@ from fairyring.app.workers.crew import crew
 from tests.support.tab import Tab, until
 
 
-def test_an_image_is_fitted_as_soon_as_it_is_opened(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    fitted: list[int] = []
-    monkeypatch.setattr(many_edits, "fit_all", lambda caps: fitted.append(caps.image.id))
-    with Tab(port, image=1) as tab:
+def test_an_image_on_which_somebody_stays_is_made_known_and_fitted_where_many_may_be_accepted(
+    port: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    known: list[tuple[str, int]] = []
+    for name in ("take_note", "fit_all"):
+        monkeypatch.setattr(many_edits, name, lambda caps, name=name: known.append((name, caps.image.id)))
+    monkeypatch.setattr(many_edits, "A_FEW", 1)
+    monkeypatch.setattr(many_edits, "STAYS_S", 0.3)
+    with Tab(port, image=2) as tab:
         tab.expect(Show)
-        until(lambda: fitted == [1], "the first image")
-        tab.send(Open(image=2))
+        tab.send(Open(image=1))
         tab.expect(Show)
-        until(lambda: fitted == [1, 2], "the second image")
+        until(lambda: known[-2:] == [("take_note", 1), ("fit_all", 1)], "the image that is looked at")
 
 
 def test_many_edits_do_not_hold_up_those_who_drag_a_cap() -> None:

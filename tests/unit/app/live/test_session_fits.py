@@ -26,7 +26,7 @@ def looks(monkeypatch: pytest.MonkeyPatch) -> list[str]:
             return look(*given, **options)
 
         monkeypatch.setattr(fitted_image, name, counted)
-    # What is fitted as soon as an image is opened would be counted, too.
+    # What is fitted once somebody stays on an image would be counted, too.
     monkeypatch.setattr(many_edits, "fit_all", lambda _caps: None)
     return taken
 
