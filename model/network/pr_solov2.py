@@ -45,6 +45,9 @@ class PRSOLOv2(nn.Module):
     std: Tensor
     calibration: Tensor
     """(2,): slope and shift of ``model.calibration``, by which scores become probabilities."""
+    rim: Tensor
+    """Scalar added to a mask's logits: how much further out people draw rims than it learnt, which rendered
+    beds cannot teach; 0 where it learnt from what people drew."""
 
     def __init__(self, config: NetworkConfig) -> None:
         super().__init__()
@@ -70,6 +73,7 @@ class PRSOLOv2(nn.Module):
         # No weights file holds these: they are there also where the rest is built without memory.
         self.register_buffer("mean", torch.tensor(mean, device="cpu").view(1, 3, 1, 1), persistent=False)
         self.register_buffer("calibration", torch.tensor([1.0, 0.0]))
+        self.register_buffer("rim", torch.tensor(0.0))
         self.register_buffer("std", torch.tensor(std, device="cpu").view(1, 3, 1, 1), persistent=False)
 
     def forward(self, photos: Tensor, origins: Tensor) -> Outputs:

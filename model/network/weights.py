@@ -87,6 +87,8 @@ def load_weights(path: Path) -> Weights:
     _check_values(path, state)
     if metadata.get("digest") != digest_of(state, metadata.get("network", "")):
         raise WeightsError(f"{path} has been changed or damaged; copy it again from where it came.")
+    # Those of older versions say nothing of it.
+    state.setdefault("rim", torch.tensor(0.0))
     try:
         config = msgspec.json.decode(metadata["network"], type=NetworkConfig)
         card = msgspec.json.decode(metadata.get("card", "{}"), type=dict[str, Any])

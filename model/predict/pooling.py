@@ -51,13 +51,17 @@ class Found:
     """(E,)."""
 
 
-def pooled(pieces: Sequence[Piece], *, width: int, height: int) -> list[Found]:
-    """The caps of a scaled photo of this size with overlaps resolved, in falling order of score."""
+def pooled(pieces: Sequence[Piece], *, width: int, height: int, rim: float = 0.0) -> list[Found]:
+    """The caps of a scaled photo of this size with overlaps resolved, in falling order of score.
+
+    ``rim`` is added to all logits, which moves every rim outwards but for those that caps share.
+    """
     found = [one for nth, _ in enumerate(pieces) for one in _taken(pieces, nth, width=width, height=height)]
     found.sort(key=lambda one: -one.score)
     kept = found if len(pieces) == 1 else list(_without_repeats(found))
     scores = [one.score for one in kept]
-    windows = resolve_overlaps([one.window for one in kept], scores, width=width, height=height)
+    shown = [replace(one.window, logits=one.window.logits + np.float32(rim)) for one in kept]
+    windows = resolve_overlaps(shown, scores, width=width, height=height)
     return [replace(one, window=window) for one, window in zip(kept, windows, strict=True)]
 
 

@@ -60,6 +60,7 @@ class Predictor:
         self.device = device
         self.settings = settings or PredictConfig()
         self.calibration = Calibration(*network.calibration.tolist())
+        self.rim = float(network.rim)
 
     def detect(self, photo: Pixels, *, scale: float = 1.0) -> list[Detection]:
         """``see`` and ``read`` of one photo."""
@@ -149,7 +150,7 @@ class Predictor:
         width, height = seen.scaled
         smooth = [
             replace(one, window=replace(one.window, logits=smoothed(one.window.logits)))
-            for one in pooled(pieces, width=width, height=height)
+            for one in pooled(pieces, width=width, height=height, rim=self.rim)
         ]
         return [one for one in smooth if (one.window.logits > 0).any()]
 
@@ -225,7 +226,8 @@ class Predictor:
         """The one cap that was asked for, cut where others lie in front; None where nothing is left of it."""
         if pointed is None:
             return None
-        window = behind(pointed.window, [_scaled(outline, _scaling(seen)) for outline in front])
+        drawn = replace(pointed.window, logits=pointed.window.logits + np.float32(self.rim))
+        window = behind(drawn, [_scaled(outline, _scaling(seen)) for outline in front])
         window = replace(window, logits=smoothed(window.logits))
         if not (window.logits > 0).any():
             return None

@@ -25,6 +25,7 @@ from fairyring.model.predict.seen import Detection
 from fairyring.model.progress import Progress, silent
 from fairyring.model.train.calibrating import SecondLookCalibration, fit_second_look
 from fairyring.model.train.data import Example, read_rgb
+from fairyring.model.train.rims import fitting_rim
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +38,8 @@ class Validation:
     """The calibration of the network's scores on these examples, at IoU .5."""
     second_look: SecondLookCalibration | None
     """The calibration of its second look; None where it takes none."""
+    rim: float
+    """The network's ``rim`` that fits these examples."""
 
 
 def validate(
@@ -64,12 +67,14 @@ def validate(
     calibration = fit_calibration(outcomes.score[counted], outcomes.right[counted])
     figures = to_builtins(score_masks([_calibrated(page, calibration) for page in pages]))
     second = fit_second_look(examples, found) if raw.second_look is not None else None
-    return Validation(figures=figures, calibration=calibration, second_look=second)
+    rim = fitting_rim(examples, found, rim=float(raw.rim))
+    return Validation(figures=figures, calibration=calibration, second_look=second, rim=rim)
 
 
 def calibrate(network: PRSOLOv2, validation: Validation) -> None:
     """Has the network say what the validation found that it means."""
     network.calibration.copy_(torch.tensor(validation.calibration))
+    network.rim.fill_(validation.rim)
     second = validation.second_look
     if network.second_look is not None and second is not None:
         network.second_look.quality_line.copy_(torch.tensor(second.quality))

@@ -60,3 +60,13 @@ def test_what_is_hardly_a_cap_takes_the_place_of_none() -> None:
 def test_nothing_seen_is_nothing_told() -> None:
     assert pooled([], width=WIDTH, height=HEIGHT) == []
     assert widths(piece(PLAIN), piece(CLOSE)) == []
+
+
+def test_rims_move_out_against_the_ground_and_stay_where_caps_share_them() -> None:
+    """A pixel for one added to the logits, as those of discs rise by one a pixel."""
+    seen = piece(PLAIN, (0.9, disc(60, 60, 21)), (0.9, disc(100, 60, 21)))
+    for rim in (0.0, 1.0):
+        left, right = pooled([seen], width=WIDTH, height=HEIGHT, rim=rim)
+        rows = [(one.window.x + np.flatnonzero((one.window.logits > 0).any(axis=0))) for one in (left, right)]
+        assert (rows[0].min(), rows[1].max()) == (39 - rim, 120 + rim)
+        assert (rows[0].max(), rows[1].min()) == (79, 80)
