@@ -21,7 +21,6 @@ from uuid import uuid4
 
 from sqlalchemy import URL, Connection, insert, make_url, select
 
-from fairyring.model.whole_files import written_whole
 from fairyring.storage.db import schema
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.copying import copy_read_only
@@ -176,8 +175,9 @@ def create_project(folder: Path, *, url: str | None = None) -> Project:
             make_tables(database, source=folder)
         (folder / IMAGES).mkdir(parents=True, exist_ok=True)
         _enter_names(database, name=folder.resolve().name, shared=url is not None)
-        with written_whole(folder / SETTINGS) as fresh:
-            fresh.write_text(_settings(folder.resolve().name, url), encoding="utf-8")
+        fresh = folder / f"{SETTINGS}.part"
+        fresh.write_text(_settings(folder.resolve().name, url), encoding="utf-8")
+        fresh.replace(folder / SETTINGS)  # whole or not at all: a folder that has it is a project
     except OSError as error:
         raise StoreError(f"{folder} cannot be made a project: {error.strerror}.") from error
     return open_project(folder)
