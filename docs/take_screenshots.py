@@ -52,6 +52,7 @@ def _walk(tab: Tab) -> None:
     tab.press("Escape", "v", "f")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("mean CDR").wait_for()
+    tab.page.locator(".fr-badge", has_text="out of date").first.wait_for(state="hidden")
     _take(tab, "review")
     tab.page.locator(".u-over").first.scroll_into_view_if_needed()
     _take(tab, "plots")
@@ -79,7 +80,9 @@ def _mark_again(tab: Tab) -> None:
     tab.page.mouse.move(x + box["width"] / 4.4, y, steps=4)
     tab.page.mouse.up()
     _take(tab, "again")
-    tab.press("Escape", "p")
+    tab.press("Escape")
+    canvas.wait_for(state="hidden")
+    tab.press("p")
     tab.page.wait_for_function("() => window.fairyring.state.image.id === 1")
 
 
