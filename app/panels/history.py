@@ -141,7 +141,7 @@ def _differences(before: Cap, after: Cap) -> list[str]:
     if before.visible != after.visible:
         changes.append("changed the outline of a cap")
     if before.told != after.told:
-        changes.append("said what a piece of a rim is" if after.told else "took back what was said of a rim")
+        changes.append("called a piece of a rim something else")
     if before.mark != after.mark:
         verb = "cleared" if after.mark is None else "placed" if before.mark is None else "moved"
         changes.append(f"{verb} the mark of a cap")
