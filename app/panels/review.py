@@ -272,7 +272,7 @@ def _groups(groups: Mapping[str, Totals]) -> Markup | None:
         element("thead", head),
         element("tbody", *rows),
         class_="fr-list fr-groups",
-        aria_label="Figures by group",
+        aria_label="Groups of caps",
     )
 
 

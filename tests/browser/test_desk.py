@@ -305,7 +305,7 @@ def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the
     on_image(tab, 3)
     selected(tab, uid_of(3, 1))
     choose(tab, "Figures by", "annotator")
-    groups = tab.page.get_by_role("table", name="Figures by group")
+    groups = tab.page.get_by_role("table", name="Groups of caps")
     assert groups.get_by_role("row", name="Ada").inner_text().split()[3:] == ["12", "3"]
     with tab.page.expect_download() as kept:
         plot.get_by_role("link", name="CSV").click()

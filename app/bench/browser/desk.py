@@ -42,29 +42,20 @@ WATCH = r"""
     if (typeof data === "string" && data.startsWith('{"type":"hello"')) window.helloAt = performance.now();
     return send.call(this, data);
   };
+  const shown = { Review: ".fr-totals", History: ".fr-history", annotator: ".fr-groups" };
+  addEventListener("click", (event) => {
+    const name = event.target.closest("[role=tab], [role=option]")?.textContent;
+    const since = performance.now();
+    const look = () => document.querySelector(shown[name])?.checkVisibility()
+      ? (window.taken = performance.now() - since) : setTimeout(look, 1);
+    if (shown[name]) look();
+  }, { capture: true });
   new MutationObserver(() => {
     const there = document.querySelector(".fr-totals") && document.querySelector(".fr-gallery button");
     if (there) window.figuresAt ??= performance.now();
     if (document.querySelector(".fr-images tr")) window.listAt ??= performance.now();
   }).observe(document, { childList: true, subtree: true });
 })();
-"""
-SHOWN = r"""
-([name, shown]) => new Promise((resolve) => {
-  const since = performance.now();
-  const look = () => document.querySelector(shown)?.checkVisibility()
-    ? resolve(performance.now() - since) : setTimeout(look, 1);
-  [...document.querySelectorAll("[role=tab]")].find((tab) => tab.textContent === name).click();
-  look();
-})
-"""
-CHOSEN_UNTIL = """
-(option) => new Promise((resolve) => {
-  const since = performance.now();
-  const look = () => %s ? resolve(performance.now() - since) : setTimeout(look, 1);
-  option.click();
-  look();
-})
 """
 CLICKED_UNTIL = r"""
 ([button, done]) => new Promise((resolve) => {
@@ -153,10 +144,10 @@ def _waiting(browser: Browser, server: Server) -> list[Row]:
         for _ in range(CLICKS):
             page.reload()
             tab.wait_for("window.listAt && window.helloAt")
-            taken.append(page.evaluate(SHOWN, ["Review", ".fr-totals"]))
+            taken.append(_shown(tab, "Review"))
             tab.wait_for("window.figuresAt")
-            histories.append(page.evaluate(SHOWN, ["History", ".fr-history"]))
-            page.evaluate(SHOWN, ["Review", ".fr-totals"])
+            histories.append(_shown(tab, "History"))
+            _shown(tab, "Review")
             lists.append(page.evaluate("window.listAt - window.helloAt"))
             opened.append(page.evaluate("window.figuresAt - window.helloAt"))
         filtered = [_filter(tab, ("missed", "extra", "worst")[nth % 3]) for nth in range(CLICKS)]
@@ -176,18 +167,28 @@ def _filter(tab: Tab, kind: str) -> float:
     return tab.page.evaluate(CLICKED_UNTIL, [button, f"[data-fairyring-gallery={kind}][aria-pressed=true]"])
 
 
+def _shown(tab: Tab, name: str) -> float:
+    """Clicks a tab of the panel; milliseconds until what it holds is in sight."""
+    tab.page.evaluate("window.taken = null")
+    tab.page.get_by_role("tab", name=name).click()
+    tab.wait_for("window.taken !== null")
+    return tab.page.evaluate("window.taken")
+
+
 def _grouped(tab: Tab) -> float:
     """Has figures shown by annotator; milliseconds from the choice until they stand there."""
-    taken = _choose(tab, "annotator", "document.querySelector('.fr-groups')")
-    _choose(tab, "nothing", "!document.querySelector('.fr-groups')")
+    tab.page.evaluate("window.taken = null")
+    _choose(tab, "annotator")
+    tab.wait_for("window.taken !== null")
+    taken = tab.page.evaluate("window.taken")
+    _choose(tab, "nothing")
+    tab.wait_for("!document.querySelector('.fr-groups')")
     return taken
 
 
-def _choose(tab: Tab, words: str, done: str) -> float:
-    tab.page.get_by_label("Figures by").first.click()
-    option = tab.page.get_by_role("option", name=words, exact=True)
-    option.wait_for()
-    return option.evaluate(CHOSEN_UNTIL % done)
+def _choose(tab: Tab, words: str) -> None:
+    tab.page.get_by_label("Figures by", exact=True).first.click()
+    tab.page.get_by_role("option", name=words, exact=True).click()
 
 
 def _decide(browser: Browser, server: Server, count: int) -> list[Row]:
