@@ -6,10 +6,8 @@ import contextlib
 import importlib.util
 import io
 import json
-import os
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +19,17 @@ from fairyring.app.bench.projects import Bed, write_labels
 from fairyring.app.bench.timing import Row, row
 from fairyring.model.errors import FairyringError
 
+MEASURED = """
+import json, os, subprocess, sys, time
+start = time.perf_counter()
+running = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
+_, status, usage = os.wait4(running.pid, 0)
+seconds = time.perf_counter() - start
+running.returncode = os.waitstatus_to_exitcode(status)
+print(json.dumps([seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024]))
+sys.exit(running.returncode)
+"""
+"""Runs a command from a process that has never held much, as what starts it counts as its memory as well."""
 DATUMARO = """
 import json, sys, time
 import datumaro
@@ -53,7 +62,6 @@ def round_trip_rows(folder: Path, *, quick: bool) -> list[Row]:
     labels, caps = write_labels(folder / "full", beds), 300 * len(beds)
     project, out = folder / "round-trip", folder / "exported"
     _run("init", project)
-    # Before anything large is read here: a process counts what the one that started it held.
     imported = _run("import", project, labels, "--link")
     first = _run("export", project, folder / "first", "--labels-only")
     exported = _run("export", project, out, "--labels-only")
@@ -90,16 +98,11 @@ def round_trip_rows(folder: Path, *, quick: bool) -> list[Row]:
 
 
 def _run(*arguments: object) -> Ran:
-    start = time.perf_counter()
-    with tempfile.TemporaryFile() as said:
-        running = subprocess.Popen([*FAIRYRING, *map(str, arguments)], stdout=said, stderr=said)
-        _, status, usage = os.wait4(running.pid, 0)
-        running.returncode = os.waitstatus_to_exitcode(status)
-        seconds = time.perf_counter() - start
-        if running.returncode:
-            said.seek(0)
-            raise FairyringError(f"{arguments[0]} failed: {said.read().decode()}")
-    return Ran(seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+    command = [sys.executable, "-c", MEASURED, *FAIRYRING, *map(str, arguments)]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    if ran.returncode:
+        raise FairyringError(f"{arguments[0]} failed: {ran.stderr}")
+    return Ran(*json.loads(ran.stdout.splitlines()[-1]))
 
 
 def _seconds(work: Callable[[], object]) -> float:
