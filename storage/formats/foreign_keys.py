@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 OF_THE_SHAPE = re.compile(
-    "bbox|box|segm|mask|rle|poly|contour|outline|point|area|perimeter|cent[er]{2}|centroid|radius|diamet"
+    "bbox|box|segm|seg(_|$)|geojson|geometr|mask|rle|poly|contour|outline|point|area|perimeter|cent[er]{2}|centroid|radius|diamet"
     "|ellipse|circle|axis|axes|angle|rotat|orient|theta|width|height|size|shape|circular|eccentric|solidity"
     "|aspect|convex|concav|compact|elongat|feret|moment|hull|skelet|landmark|silhouette|bitmap|coord|vert(ex|ices)"
     "|corner|rect|crop|thumb|pixel|amodal|visib|hidden|occlu|truncat|overlap|fraction|coverage|refusal|iou|dice"
@@ -17,7 +17,7 @@ OF_THE_SHAPE = re.compile(
 MEASURED = re.compile(
     "score|confid|probab|logit|certain|stabil|error|deviat|length|breadth|thick|distance|diagonal|extent"
     "|position|locat|direction|heading|tilt|skew|curv|rough|smooth|roundness|feature|border|bound|edge|ratio|intens"
-    "|bright|luminan|contrast|texture|mean|median|std|varian|depth|surface|volume",
+    "|bright|luminan|contrast|blur|sharp|colou?r|rgb|hsv|gr[ae]y|texture|mean|median|std|varian|depth|surface|volume",
     re.IGNORECASE,
 )
 """Parts of names that are a measurement where a number stands for them; a word may be somebody's own."""
@@ -41,9 +41,17 @@ SHORT = {
         "xc",
         "yc",
     ),
+    *("d", "occ", "lab"),
     *("left", "top", "right", "bottom", "major", "minor", "px", "mm", "cm", "yaw", "pitch", "roll", "hu"),
 }
 """Whole words in names, likewise."""
+DRAWN_AS_TEXT = re.compile(
+    r"\s*(SRID=\d+;)?(MULTI)?(POLYGON|POINT|LINESTRING)\s*Z?M?\s*\("
+    r"|\s*M\s*-?\d[\d.]*[ ,]+-?\d[\d.]*\s*[ LHVCSQTAZ]"
+    "|data:image/|iVBORw0KGgo|/9j/",
+    re.IGNORECASE,
+)
+"""How texts begin that are outlines (WKT, the paths of SVG) or pictures (PNG and JPEG in base 64)."""
 WORD = re.compile("[A-Z]?[a-z]+|[A-Z]+")
 FEWEST_COORDINATES = 4
 """A list of so many numbers is taken for a box or an outline, whatever it is called."""
@@ -55,7 +63,8 @@ def without_geometry(keys: dict[str, Any]) -> dict[str, Any]:
     for key, value in keys.items():
         rest = without_geometry(value) if isinstance(value, dict) else value
         emptied = rest == {} and value != {}
-        if not _tells_of_the_shape(key, value) and not emptied and not _holds_coordinates(value):
+        drawn = isinstance(value, str) and DRAWN_AS_TEXT.match(value) is not None
+        if not (drawn or emptied or _tells_of_the_shape(key, value) or _holds_coordinates(value)):
             kept[key] = rest
     return kept
 

@@ -31,6 +31,10 @@ from fairyring.storage.formats.foreign_keys import without_geometry
         {"feret_max": 33.1, "hu_1": 0.16},
         {"verified": True},
         {"reviewedBy": "Ada", "updated_at": "2024-05-01"},
+        {"as_text": "POLYGON ((0 0, 10 0, 10 10, 0 0))", "drawn": "M0 0 L10 0 L10 10 Z"},
+        {"inline": "data:image/png;base64,iVBORw0KGgo", "thumb_png": "iVBORw0KGgoAAAA"},
+        {"geojson": {"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [0, 10]]]}},
+        {"blur": 3.2, "rgb": [120, 100, 80], "occ": 0.2, "seg_counts": "32;"},
     ],
     ids=str,
 )
@@ -53,6 +57,7 @@ def test_what_tells_of_geometry_by_name_or_by_content_goes(keys):
         {"weight_g": 12.5, "age_days": 4, "price": 0.4},
         {"created_by": "Ada", "text": "spotted", "xylem": 3},
         {"quality": "A", "colour": "brown"},
+        {"note": "Multipolygon was hard to draw", "said": "M. 12 was here", "z_order": 3},
     ],
     ids=str,
 )
