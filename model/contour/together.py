@@ -75,11 +75,17 @@ class Together:
 
     @property
     def centre_sd(self) -> Array:
-        """(n, 2), one standard deviation of the centre along x and y, pixels."""
+        """(n, 2), one standard deviation of the centre along x and y, pixels.
+
+        No less than who drew the outline gives: a network's rim is smooth where it is wrong, too, so its
+        roughness does not tell how far off it is.
+        """
         estimate = self.look.estimate
         relative: Array = np.sqrt(estimate.covariance[:, [0, 1], [0, 1]])
         radius = np.exp(estimate.outlines.log_radius)
-        return relative * (radius * (1 + HIDDEN_DOUBT * (1 - self.coverage)))[:, None]
+        own = relative * (radius * (1 + HIDDEN_DOUBT * (1 - self.coverage)))[:, None]
+        caps = self.in_sight[: len(own)]
+        return np.maximum(own, [cap.likely.centre_sd if cap.likely else (0.0, 0.0) for cap in caps])
 
 
 def first_look(rims: Rims, contact: Contact, expected: Expected, priors: Priors) -> Look:

@@ -31,6 +31,12 @@ class LikelyEllipse(Struct, frozen=True, kw_only=True):
         """The most likely one."""
         return ellipse_of(np.array(self.parameters))
 
+    @property
+    def centre_sd(self) -> tuple[float, float]:
+        """Standard deviation of its centre along x and y, pixels."""
+        radius = math.exp(self.parameters[2])
+        return radius * self.covariance[0][0] ** 0.5, radius * self.covariance[1][1] ** 0.5
+
     def enlarged(self, by: NDArray[np.float64]) -> LikelyEllipse:
         """The same in a photo that is (2,) times as wide and high; its shape is held to stay as it is."""
         x, y, log_r, u, v = self.parameters

@@ -14,7 +14,6 @@ from fairyring.model.coco.annotations import shape_of
 from fairyring.model.contour.fitted_image import fitted_image
 from fairyring.model.contour.silhouette import Silhouette, silhouette_of_outline
 from fairyring.model.evaluate.centres import CentreError, centre_error
-from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.raster import iou_matrix, rle_of_outline
 from fairyring.model.geometry.shapes import Centre, centre_of_shape, diameter_of_shape
 from fairyring.model.predict.predictor import Predictor
@@ -51,7 +50,7 @@ def whole_rows(predictor: Predictor, photos: LabelledPhotos, *, progress: Progre
         alone = [silhouette_of_outline(one.outline, **size) for one in found]
         ways = {
             "rim": _fitted(alone, **size),
-            "network": [(one.parameters[:2], _sd_of(one)) for one in likely],
+            "network": [(one.parameters[:2], one.centre_sd) for one in likely],
             "both": _fitted([replace(cap, likely=it) for cap, it in zip(alone, likely, strict=True)], **size),
         }
         truths = [
@@ -83,11 +82,6 @@ def _fitted(shown: Sequence[Silhouette], *, width: int, height: int) -> list[Sai
     image = fitted_image(shown, width=width, height=height)
     fits = [one.fit for one in image.reconstructions(shown)]
     return [(fit.centre or (np.nan, np.nan), fit.centre_sd or (np.nan, np.nan)) for fit in fits]
-
-
-def _sd_of(likely: LikelyEllipse) -> tuple[float, float]:
-    radius = float(np.exp(likely.parameters[2]))
-    return radius * likely.covariance[0][0] ** 0.5, radius * likely.covariance[1][1] ** 0.5
 
 
 def _compared(

@@ -117,6 +117,17 @@ class TestWhatANetworkSaid:
         without = self.centre(HALF, {})
         assert self.centre(HALF, likely_by_outline([(HALF, unsure)])) == pytest.approx(without, abs=0.01)
 
+    def test_a_centre_is_held_to_be_no_surer_than_the_network_was(self) -> None:
+        said = LikelyEllipse(
+            parameters=SAID.parameters,
+            covariance=tuple(tuple(row) for row in np.diag([0.04, 0.01, 1, 1, 1]).tolist()),
+        )
+        kept = Fitting(IMAGE, known_statistics(IMAGE), likely_by_outline([(HALF, said)]))
+        (found,) = kept.reconstructions([HALF], visible=[HALF])
+        (bare,) = fitting().reconstructions([HALF], visible=[HALF])
+        assert found.fit.centre_sd == pytest.approx((60 * 0.2, 60 * 0.1))
+        assert max(bare.fit.centre_sd or ()) < 60 * 0.1
+
     def test_it_holds_for_the_very_outline_it_drew(self) -> None:
         likely = likely_by_outline([(HALF, SAID), (HALF[:0], None)])
         moved = [[HALF[0][0] + 1e-9, *HALF[0][1:]]]
