@@ -123,8 +123,9 @@ class TestWhatANetworkSaid:
             covariance=tuple(tuple(row) for row in np.diag([0.04, 0.01, 1, 1, 1]).tolist()),
         )
         kept = Fitting(IMAGE, known_statistics(IMAGE), likely_by_outline([(HALF, said)]))
-        (found,) = kept.reconstructions([HALF], visible=[HALF])
-        (bare,) = fitting().reconstructions([HALF], visible=[HALF])
+        half = Seen(HALF)
+        (found,) = kept.reconstructions([half], visible=[half])
+        (bare,) = fitting().reconstructions([half], visible=[half])
         assert found.fit.centre_sd == pytest.approx((60 * 0.2, 60 * 0.1))
         assert max(bare.fit.centre_sd or ()) < 60 * 0.1
 
