@@ -9,6 +9,8 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.comparison import compare_cap, near_cap
 from fairyring.app.caps.image_caps import ImageCaps
+from fairyring.app.caps.records import truth_record
+from fairyring.app.caps.repeated import marks_on
 from fairyring.app.caps.whole_outlines import arcs_of, note_of, reconstruction_of
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
@@ -43,6 +45,8 @@ class Background:
     arcs: Sequence[Arc] = ()
     """The pieces of the visible outline."""
     pair: Pair | None = None
+    floor: float | None = None
+    """CDR, percent, that the mark has by itself; None where that is not known."""
 
 
 def build(workspace: Workspace, session: Session) -> Redraw:
@@ -78,7 +82,9 @@ async def _background(
 
     def gather(connection: Connection) -> Background:
         prediction = load_prediction(connection, started_from) if started_from is not None else None
+        marks = marks_on(connection, caps.image.id)
         return Background(
+            floor=marks.floor_of(annotation, truth_record(annotation, caps.image), caps.image),
             entries=history(connection, annotation.uid),
             prediction=prediction,
             run=load_run(connection, prediction.run) if prediction else None,
@@ -113,7 +119,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         ("Fit", background.note),
         *([("Rim", arcs_list(background.arcs))] if background.arcs else []),
         ("Mark", _mark(cap.mark)),
-        *_error_facts(background.pair),
+        *error_facts(background.pair, floor=background.floor),
         ("Overlap", order),
         ("From", _origin(background)),
         ("Edited", _last_edit(annotation, background.entries)),
@@ -123,7 +129,8 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
     return card(title, *flags, facts=facts, commands=(marking, "doubtful", "ignored", "delete"))
 
 
-def _error_facts(pair: Pair | None) -> Facts:
+def error_facts(pair: Pair | None, *, floor: float | None) -> Facts:
+    """How far a prediction lies from a mark, beside the CDR in percent that the mark has by itself."""
     if pair is None:
         return [("Prediction", "none matches this cap")]
     if pair.error is None:
@@ -131,8 +138,10 @@ def _error_facts(pair: Pair | None) -> Facts:
     error = pair.error
     signed = f"Δx {error.dx:+.2f}, Δy {error.dy:+.2f} px"
     share = "" if error.relative is None else f", {100 * error.relative:.2f} % of the diameter"
+    own = "the mark's own is not known" if floor is None else f"the mark's own is {floor:.3f} %"
     return [
         ("CDR", element("span", f"{error.cdr:.3f} %", class_="fr-figure", title=signed)),
+        ("Floor", own),
         ("Error", f"{error.px:.2f} px{share}"),
     ]
 
