@@ -1,4 +1,4 @@
-"""Another run beside the latest one, so other weights: figures of both, and the caps that changed most."""
+"""Two runs, so two weights, side by side: figures of both, and the caps that changed most."""
 
 from __future__ import annotations
 
@@ -23,21 +23,22 @@ from fairyring.storage.compared_runs import (
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
 from fairyring.storage.review_figures import Totals
-from fairyring.storage.runs import list_runs, require_run
+from fairyring.storage.runs import list_runs
 
 NOTHING = "nothing"
+LATEST = "the latest"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Beside:
     """What stands side by side."""
 
-    others: list[str]
-    """Names of the runs that could."""
+    runs: list[str]
+    """Names of all runs, the latest first."""
     before: Run | None = None
     after: Run | None = None
-    lacking: int = 0
-    """How many images are not compared with the earlier run as they are now."""
+    lacking: Sequence[Run] = ()
+    """Those of the two that images are not compared with as they are now."""
     both: BothRuns | None = None
     changed: list[ChangedCap] = field(default_factory=list)
 
@@ -46,54 +47,59 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the choice of the other run and what stands below it."""
     gui = session.client.gui
     with gui.add_folder("Two runs side by side", expand_by_default=False):
-        other = gui.add_dropdown("Beside the latest", [str(NOTHING)])
+        first = gui.add_dropdown("First run", [str(NOTHING)])
+        second = gui.add_dropdown("Second run", [str(LATEST)])
         shown = gui.add_html("")
-        compare = gui.add_button("Compare with that run", visible=False)
+        compare = gui.add_button("Compare images with these runs", visible=False)
+
+    async def find() -> Beside:
+        names = [None if box.value in (NOTHING, LATEST) else box.value for box in (first, second)]
+        return await workspace.read(partial(find_beside, chosen=names[0], against=names[1]))
 
     async def choose() -> None:
         session.redraw_at_once(("beside",))
 
     async def start() -> None:
-        run = await workspace.read(lambda connection: require_run(connection, other.value))
-        work = compare_with_run_work(workspace.project, run)
-        workspace.start_job(session, f"Comparison with {run.name}", work)
+        for run in (await find()).lacking:
+            work = compare_with_run_work(workspace.project, run)
+            workspace.start_job(session, f"Comparison with {run.name}", work)
 
     async def redraw() -> None:
-        chosen = None if other.value == NOTHING else other.value
-        found = await workspace.read(partial(find_beside, chosen=chosen))
-        options = (NOTHING, *found.others)
-        if tuple(other.options) != options:
-            other.options = options
+        found = await find()
+        for box, unsaid in ((first, NOTHING), (second, LATEST)):
+            options = (unsaid, *found.runs)
+            if tuple(box.options) != options:
+                box.options = options
         shown.content = beside_page(found).html
-        compare.visible = found.lacking > 0
+        compare.visible = len(found.lacking) > 0
 
-    other.on_update(person_did(session, choose))
+    for box in (first, second):
+        box.on_update(person_did(session, choose))
     compare.on_click(person_did(session, start))
     return redraw
 
 
-def find_beside(connection: Connection, *, chosen: str | None) -> Beside:
-    """The figures of the run of this name and of the latest one, on the images that both saw."""
-    latest = latest_run(connection)
-    runs = [row.run for row in list_runs(connection)][::-1]
-    others = [run.name for run in runs if latest is not None and run.id != latest.id]
-    before = next((run for run in runs if run.name == chosen), None)
-    if latest is None or before is None:
-        return Beside(others=others)
+def find_beside(connection: Connection, *, chosen: str | None, against: str | None = None) -> Beside:
+    """The figures of the runs of these names (None: the latest one), on the images that both saw."""
+    runs = {row.run.name: row.run for row in reversed(list_runs(connection))}
+    before = runs.get(chosen or "")
+    after = latest_run(connection) if against is None else runs.get(against)
+    if before is None or after is None or before.id == after.id:
+        return Beside(runs=list(runs))
     return Beside(
-        others=others,
+        runs=list(runs),
         before=before,
-        after=latest,
-        lacking=len(lacking_comparison(connection, before.id)),
-        both=both_runs(connection, before.id, latest.id),
-        changed=changed_caps(connection, before.id, latest.id),
+        after=after,
+        lacking=[run for run in (before, after) if lacking_comparison(connection, run.id)],
+        both=both_runs(connection, before.id, after.id),
+        changed=changed_caps(connection, before.id, after.id),
     )
 
 
 def beside_page(found: Beside) -> Markup:
     """Two columns of figures, and the caps that changed most, each leading to its cap."""
     if found.both is None or found.before is None or found.after is None:
-        words = "Choose an earlier run." if found.others else "There is one run alone."
+        words = "Choose two different runs." if len(found.runs) > 1 else "There is one run alone."
         return element("div", words, class_="fr-review fr-quiet")
     if not found.both.images:
         return element("div", "No image was compared with both yet.", class_="fr-review fr-quiet")

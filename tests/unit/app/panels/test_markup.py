@@ -152,7 +152,7 @@ def every_panel() -> dict[str, str]:
         "desk": desk.said_of_image([VERDICT]).html,
         "beside": beside.beside_page(
             beside.Beside(
-                others=[EVIL],
+                runs=[EVIL],
                 before=RUN,
                 after=RUN,
                 both=BothRuns(images=1, first=TOTALS, second=TOTALS),

@@ -107,7 +107,13 @@ def test_the_desk_has_both_side_by_side_once_the_earlier_one_was_compared_too(fo
         with project.read() as connection:
             found = find_beside(connection, chosen=first.name)
             assert lacking_comparison(connection, first.id) == []
-    assert (found.before, found.after, found.lacking) == (first, second, 0)
+            turned = find_beside(connection, chosen=second.name, against=first.name)
+            alone = find_beside(connection, chosen=first.name, against=first.name)
+    assert (found.before, found.after, list(found.lacking)) == (first, second, [])
+    assert (turned.before, turned.after) == (second, first)
+    assert turned.both is not None
+    assert turned.both.second.cdr == pytest.approx(CDR / 4, abs=0.01)
+    assert (alone.both, sorted(alone.runs)) == (None, sorted([first.name, second.name]))
     assert found.both is not None
     assert found.both.images == 1
     assert found.both.first.cdr == pytest.approx(CDR / 4, abs=0.01)
