@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator
-from playwright.sync_api import TimeoutError as TookTooLong
+from playwright.sync_api import Error as NotThere
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -292,13 +292,11 @@ def hover_until_named(tab: Tab, words: Locator, *, across: float) -> None:
     """Moves over the first plot until it names a point: one that is drawn anew has forgotten the pointer."""
     drawn = tab.page.locator(".u-over").first
     for _ in range(20):
-        drawn.scroll_into_view_if_needed()
-        box = drawn.bounding_box()
-        assert box is not None
-        drawn.hover(position={"x": across * box["width"], "y": 20})
         try:
+            box = drawn.bounding_box(timeout=3000) or {"width": 0.0}
+            drawn.hover(position={"x": across * box["width"], "y": 20}, timeout=3000)
             words.wait_for(timeout=1500)
-        except TookTooLong:
+        except NotThere:
             continue
         return
     raise AssertionError(f"The plot names no point {across:.0%} across")
