@@ -12,6 +12,9 @@ from fairyring.app.bench.browser.tab import Tab, centroid
 from fairyring.app.bench.serving import Server
 from tests.support.kept import kept_cap, live_caps
 
+SAME_CAP = 0.5
+"""IoU from which two outlines are of one cap: what a click finds need not be what a prediction drew."""
+
 
 def likeness(a: list[float], b: list[float]) -> float:
     """IoU of two rings."""
@@ -41,7 +44,7 @@ def test_a_missed_cap_is_taken_by_a_click_and_another_by_a_box(tab: Tab, project
     kept = kept_cap(project, uid)
     assert kept is not None
     assert (kept["prediction"], kept["centre_x"] is None) == (None, False)
-    assert likeness(kept["visible"][0], sure[0]) > 0.75
+    assert likeness(kept["visible"][0], sure[0]) > SAME_CAP
     xs, ys = sure[1][::2], sure[1][1::2]
     tab.drag((min(xs) - 1, min(ys) - 1), (max(xs) + 1, max(ys) + 1))
     tab.wait_for("window.fairyring.state.shapes.length === 2")
@@ -49,7 +52,7 @@ def test_a_missed_cap_is_taken_by_a_click_and_another_by_a_box(tab: Tab, project
     [another] = set(live_caps(project)) - {uid}
     other = kept_cap(project, another)
     assert other is not None
-    assert likeness(other["visible"][0], sure[1]) > 0.75
+    assert likeness(other["visible"][0], sure[1]) > SAME_CAP
     assert tab.state("tool") == "point"
     tab.press("Control+z", "Control+z")
     tab.saved()
@@ -65,4 +68,4 @@ def test_the_network_looks_at_a_photo_on_which_somebody_stays_and_answers_at_onc
     tab.press("Delete", "e")
     tab.click(centroid(ring))
     tab.page.wait_for_function("() => window.fairyring.state.shapes.length === 1", timeout=5_000)
-    assert likeness(tab.state("shapes")[0]["cap"]["visible"][0], ring) > 0.75
+    assert likeness(tab.state("shapes")[0]["cap"]["visible"][0], ring) > SAME_CAP
