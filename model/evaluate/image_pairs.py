@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from typing import Literal
 from unicodedata import normalize
 
-from msgspec import Struct
+from msgspec import UNSET, Struct, UnsetType
 
 from fairyring.model.coco.images import ImageEntry
 from fairyring.model.coco.photo_names import PhotoNames, meant
@@ -28,13 +29,13 @@ class Pairing(Struct, frozen=True, kw_only=True):
     """Images of the predictions that the truth does not list; they do not count."""
     renamed: dict[str, str] = {}
     """Names in the predictions that were taken for others in the truth."""
-    swapped: bool = False
-    """Whether all of the truth carries scores, as predictions do, and nothing of the predictions."""
+    swapped: Literal[True] | UnsetType = UNSET
+    """Said where all of the truth carries scores, as predictions do, and nothing of the predictions."""
 
     def sentences(self) -> list[str]:
         """What somebody should hear of it."""
         told = []
-        if self.swapped:
+        if self.swapped is True:
             told.append(
                 "Every cap of the truth carries a score and none of the predictions: "
                 "have they been swapped? The truth comes last."

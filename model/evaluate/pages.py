@@ -119,7 +119,9 @@ def pages_of(predicted: Document, truth: Truth) -> Paged:
             indices = of_prediction.get(other.id, []) if other else []
             guesses = _caps(predicted, indices, name, image, masks=truth.masks, centres=truth.centres)
         pages.append(_page(name, image, truths, guesses))
-    return Paged(pages=pages, pairing=structs.replace(pairing, swapped=_seem_swapped(pages)))
+    return Paged(
+        pages=pages, pairing=structs.replace(pairing, swapped=True) if _seem_swapped(pages) else pairing
+    )
 
 
 def _seem_swapped(pages: list[Page]) -> bool:
