@@ -16,6 +16,7 @@ import { showProgress } from "./ui/progress.js";
 import { listenToTags } from "./ui/tags.js";
 import { takePhotos } from "./ui/uploads.js";
 import { followView } from "./ui/view_controls.js";
+import { hideNoteOnSlowWebGL } from "./ui/viser_notes.js";
 import { zoomButtonsIn } from "./ui/zoom_buttons.js";
 
 /**
@@ -46,6 +47,7 @@ export function listen(parts) {
   followView(state.layers, state.look);
   zoomButtonsIn(host, perform);
   nameFields();
+  hideNoteOnSlowWebGL();
   takePhotos(host, say);
   bringFocusBack(host);
   showProgress(state);

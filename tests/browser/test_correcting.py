@@ -224,8 +224,7 @@ def test_a_deleted_prediction_is_gone_after_a_reload(tab: Tab, project: Path) ->
     tab.wait_for(f"window.fairyring.state.predictions.length === {count - 1}")
     tab.saved()
     assert live_caps(project) == []
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    tab.reload()
     assert len(tab.state("predictions")) == count - 1
 
 

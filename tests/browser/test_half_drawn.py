@@ -126,15 +126,13 @@ def test_an_image_is_not_done_while_an_outline_is_half_drawn(tab: Tab) -> None:
 
 def test_a_reload_brings_it_back(tab: Tab, project: Path) -> None:
     place(tab, CORNERS)
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    tab.reload()
     said(tab, "is half drawn here")
     place(tab, [(6.0, 24.0)])
     tab.press("Enter")
     tab.saved()
     assert stored_outline(project) == pytest.approx(flat([*CORNERS, (6.0, 24.0)]), abs=1.0)
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    tab.reload()
     tab.press("Enter")
     assert sizes(tab) == [6], "what was closed does not come back"
 
@@ -159,8 +157,7 @@ def test_a_tab_that_was_closed_leaves_it_to_the_next_one(server: Server, tab: Ta
     other.press("Enter")
     assert other.state("shapes") == [], "it is the first tab's as long as that is open"
     tab.page.close()
-    page.reload()
-    other.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    other.reload()
     said(other, "is half drawn here")
     other.press("Enter")
     other.saved()

@@ -14,7 +14,6 @@ from tests.support.plain_bed import make_bed, ring
 from tests.support.said import said
 
 SMALL = ring(560, 350, 4, count=8)
-ONLINE = "window.fairyring?.state.image && window.fairyring.state.connection === 'online'"
 
 MOST_BUTTONS = 8
 """How many buttons there are at most beside the photo, after its caps."""
@@ -59,8 +58,7 @@ def test_a_reload_and_the_history_lead_to_the_image_and_the_view_that_were_left(
     tab.select((150, 150))
     tab.press("z")
     before = scale(tab), middle(tab)
-    tab.page.reload()
-    tab.wait_for(ONLINE)
+    tab.reload()
     assert tab.state("image.file_name") == "bed_2.png"
     assert scale(tab) == before[0]
     assert middle(tab) == pytest.approx(before[1], abs=1)
@@ -76,7 +74,7 @@ def test_a_link_leads_to_its_image(tab: Tab) -> None:
     page = tab.page.context.new_page()
     page.goto(link)
     other = Tab(page)
-    other.wait_for(ONLINE)
+    other.ready()
     assert other.state("image.file_name") == "bed_3.png"
     assert other.errors == []
 
@@ -89,7 +87,7 @@ def test_a_link_leads_to_its_cap_and_so_does_a_reload(tab: Tab) -> None:
     page = tab.page.context.new_page()
     page.goto(link)
     other = Tab(page)
-    other.wait_for(ONLINE)
+    other.ready()
     other.wait_for("window.fairyring.state.selection.length === 1")
     assert (other.state("image.file_name"), other.state("selection")) == ("bed_2.png", [uid])
     other.press("Escape")
@@ -97,8 +95,7 @@ def test_a_link_leads_to_its_cap_and_so_does_a_reload(tab: Tab) -> None:
     assert other.errors == []
     page.close()
     tab.page.bring_to_front()
-    tab.page.reload()
-    tab.wait_for(ONLINE)
+    tab.reload()
     tab.wait_for(f"window.fairyring.state.selection[0] === {uid!r}")
 
 

@@ -90,8 +90,7 @@ def test_what_was_accepted_is_not_offered_again_by_a_later_run(
 
     done = CliRunner().invoke(app, ["predict", str(project), "--images", "bed_0.png", "--redo"])
     assert f"{len(seen)} caps seen" in done.stderr
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+    tab.reload()
     assert tab.state("predictions") == []
     tab.accept_all()
     tab.saved()

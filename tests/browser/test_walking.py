@@ -122,8 +122,7 @@ class TestImportedCaps:
             assert now is not None
             assert (now["visible"], now["edited_by"]) == (cap["visible"], "Ada")
             assert [edit["revision"] for edit in journal_of(project, uid)] == [1, 2]
-        tab.page.reload()
-        tab.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
+        tab.reload()
         until_progress(tab, "all 2 checked")
         tab.press("Control+Enter")
         tab.wait_for("window.fairyring.state.image.id === 2")

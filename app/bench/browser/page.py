@@ -16,7 +16,7 @@ from playwright.sync_api import Browser
 from fairyring.app.bench.browser import stopwatch
 from fairyring.app.bench.browser.leafing import VIEWPORT
 from fairyring.app.bench.browser.line import Line, line_to
-from fairyring.app.bench.browser.tab import Tab, chromium
+from fairyring.app.bench.browser.tab import ONLINE, Tab, chromium
 from fairyring.app.bench.projects import Bed, make_project
 from fairyring.app.bench.serving import FAIRYRING, Server
 from fairyring.app.bench.timing import Row, milliseconds, row
@@ -73,7 +73,8 @@ def _visits(server: Server, browser: Browser) -> list[Row]:
 def _visit(name: str, tab: Tab, line: Line) -> list[Row]:
     line.reset()
     began = time.perf_counter()
-    tab.enter(line.url, name="Bench")
+    tab.page.goto(line.url)
+    tab.wait_for(ONLINE)
     stopwatch.shown(tab)
     taken = time.perf_counter() - began
     tab.page.wait_for_load_state("networkidle")

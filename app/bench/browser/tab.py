@@ -13,6 +13,19 @@ from fairyring.model.errors import FairyringError
 
 Point = tuple[float, float]
 WAIT_MS = 30_000
+ONLINE = "window.fairyring?.state.image && window.fairyring.state.connection === 'online'"
+STANDS_STILL = """() => new Promise((resolve) => {
+  let [place, since] = ["", performance.now()];
+  const look = (now) => {
+    const panel = document.querySelector("[data-dock-scroll] [role=tab]");
+    const is = JSON.stringify(window.fairyring.view.toScreen(0, 0));
+    if (is !== place || !panel) [place, since] = [is, now];
+    if (now - since > 150) resolve();
+    else requestAnimationFrame(look);
+  };
+  requestAnimationFrame(look);
+})"""
+"""The panel comes after the photo and takes room from it, so that points of the photo move on the screen."""
 
 
 @contextmanager
@@ -41,9 +54,17 @@ class Tab:
         if self.page.get_by_label("Your name").count():
             self.page.get_by_label("Your name").fill(name)
             self.page.keyboard.press("Enter")
-        self.wait_for("window.fairyring?.state.image && window.fairyring.state.connection === 'online'")
-        for notice in self.page.get_by_text("Software WebGL rendering detected").all():
-            notice.locator("xpath=../..").get_by_role("button").click()
+        self.ready()
+
+    def reload(self) -> None:
+        """Loads the page again and waits until it can be worked with."""
+        self.page.reload()
+        self.ready()
+
+    def ready(self) -> None:
+        """Waits for the first image and for its place on the screen."""
+        self.wait_for(ONLINE)
+        self.page.evaluate(STANDS_STILL)
 
     def wait_for(self, condition: str) -> None:
         """Waits until a JavaScript expression is true."""
