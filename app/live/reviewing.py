@@ -14,23 +14,27 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Compared
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.images import get_image
-from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.records import Annotation, Image, Prediction, Run
+from fairyring.storage.runs import predictions_by
 
 
 async def tell_differences(workspace: Workspace, session: Session, image_id: int) -> None:
-    """Compares an image as it is stored now. Raises StoreError where the project has no such image."""
-    caps = await workspace.read(partial(_load, image_id=image_id))
+    """Compares an image as it is stored now with the run on screen, or the one that the person chose.
+
+    Raises StoreError where the project has no such image.
+    """
+    caps = await workspace.read(partial(_load, image_id=image_id, run=session.run_on_photo))
     worker = workspace.crew.of_image(image_id)
     found = await anyio.to_thread.run_sync(partial(worker.run, differences_of, *caps))
     session.send(Compared(image=image_id, caps=found))
 
 
 def _load(
-    connection: Connection, *, image_id: int
+    connection: Connection, *, image_id: int, run: Run | None
 ) -> tuple[Image, list[Annotation], list[Prediction], Marks]:
     return (
         get_image(connection, image_id),
         load_annotations(connection, image_id),
-        load_predictions(connection, image_id),
+        predictions_by(connection, run.id, image_id) if run else load_predictions(connection, image_id),
         marks_on(connection, image_id),
     )

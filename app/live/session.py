@@ -71,6 +71,8 @@ class Session:
     """Which caps of all images the review shows."""
     only_sure: bool = False
     """The review's figures leave out doubtful caps and marks that hardly determine a centre."""
+    run_on_photo: Run | None = None
+    """The run that the photo is compared with, where a reviewer chose one; else the one on screen."""
     queue: tuple[int, ...] = ()
     """The images that a reviewer goes through, which then decide the next image."""
     position: int = 0

@@ -9,6 +9,7 @@ from functools import partial
 from sqlalchemy import Connection
 
 from fairyring.app.jobs.comparing import compare_with_run_work
+from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
@@ -23,10 +24,11 @@ from fairyring.storage.compared_runs import (
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
 from fairyring.storage.review_figures import Totals
-from fairyring.storage.runs import list_runs
+from fairyring.storage.runs import list_runs, require_run
 
 NOTHING = "nothing"
 LATEST = "the latest"
+ON_SCREEN = "the latest of each image"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +51,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     with gui.add_folder("Two runs side by side", expand_by_default=False):
         first = gui.add_dropdown("First run", [str(NOTHING)])
         second = gui.add_dropdown("Second run", [str(LATEST)])
+        drawn = gui.add_dropdown(
+            "On the photo", [str(ON_SCREEN)], hint="Whose outlines and centres U draws beside the annotations"
+        )
         shown = gui.add_html("")
         compare = gui.add_button("Compare images with these runs", visible=False)
 
@@ -59,6 +64,12 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     async def choose() -> None:
         session.redraw_at_once(("beside",))
 
+    async def draw() -> None:
+        chosen = partial(_run_called, name=None if drawn.value == ON_SCREEN else drawn.value)
+        session.run_on_photo = await workspace.read(chosen)
+        if session.image is not None:
+            await tell_differences(workspace, session, session.image.id)
+
     async def start() -> None:
         for run in (await find()).lacking:
             work = compare_with_run_work(workspace.project, run)
@@ -66,7 +77,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def redraw() -> None:
         found = await find()
-        for box, unsaid in ((first, NOTHING), (second, LATEST)):
+        for box, unsaid in ((first, NOTHING), (second, LATEST), (drawn, ON_SCREEN)):
             options = (unsaid, *found.runs)
             if tuple(box.options) != options:
                 box.options = options
@@ -75,8 +86,13 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     for box in (first, second):
         box.on_update(person_did(session, choose))
+    drawn.on_update(person_did(session, draw))
     compare.on_click(person_did(session, start))
     return redraw
+
+
+def _run_called(connection: Connection, *, name: str | None) -> Run | None:
+    return None if name is None else require_run(connection, name)
 
 
 def find_beside(connection: Connection, *, chosen: str | None, against: str | None = None) -> Beside:

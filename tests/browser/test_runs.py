@@ -92,6 +92,25 @@ def test_two_runs_are_compared_with_what_people_marked(tab: Tab) -> None:
     assert "new is nearer in 1, old in 0" in told
 
 
+def test_two_runs_stand_side_by_side_and_either_is_drawn_on_the_photo(tab: Tab) -> None:
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two runs side by side", exact=True).click()
+    choose(tab, "First run", "old")
+    tab.page.get_by_role("button", name="Compare images with these runs").click()
+    both = tab.page.get_by_role("table", name="Two runs side by side")
+    # 4 and 2 of 320 pixels.
+    both.get_by_role("row", name="CDR % 1.250 0.625").wait_for()
+    changed = tab.page.get_by_role("table", name="Caps that changed most")
+    changed.get_by_role("button", name="bed.png").click()
+    tab.wait_for("window.fairyring.state.review.caps[0]?.prediction.centre[0] === 92")
+    choose(tab, "On the photo", "old")
+    tab.wait_for("window.fairyring.state.review.caps[0].prediction.centre[0] === 94")
+    assert tab.state("review.on") is True
+    assert tab.state("review.caps")[0]["cdr"] == pytest.approx(1.25)
+    choose(tab, "On the photo", "the latest of each image")
+    tab.wait_for("window.fairyring.state.review.caps[0].prediction.centre[0] === 92")
+
+
 def test_a_run_that_later_ones_hide_is_exported(tab: Tab) -> None:
     choose(tab, "Run", "old")
     tab.page.locator(".fr-run").get_by_text("1", exact=True).wait_for()
