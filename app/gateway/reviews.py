@@ -27,6 +27,8 @@ from fairyring.storage.project import Project
 from fairyring.storage.review_figures import shifts as find_shifts
 
 REPORT = "report.html"
+OWN_LOOKS = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
+"""Content policy of the report, which holds its looks and pictures itself and loads nothing."""
 EVERYTHING = 1_000_000
 Rows = tuple[Sequence[str], Sequence[Sequence[Any]]]
 
@@ -61,7 +63,8 @@ def reviews_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
 def _answer(project: Project, asked: _Asked) -> Response | None:
     if asked.what == REPORT:
         among = None if asked.image is None else {asked.image}
-        return HTMLResponse(page_of(project, review_of(project, among=among, only_sure=asked.only_sure)))
+        page = page_of(project, review_of(project, among=among, only_sure=asked.only_sure))
+        return HTMLResponse(page, headers={"Content-Security-Policy": OWN_LOOKS})
     name, _, kind = asked.what.partition(".")
     if name not in PLOTS or kind not in ("svg", "csv"):
         return None
