@@ -42,6 +42,10 @@ export function expose(host, { state: editorState, frame, suggested, waiting, as
     get selection() {
       return [...editorState.selection.uids];
     },
+    /** What the pointer is on, as far as the tool in hand means it. */
+    get hovered() {
+      return editorState.selection.hovered;
+    },
     /** Caps people agreed on, as they look now. */
     get shapes() {
       return editorState.items.all

@@ -64,6 +64,17 @@ def test_one_stroke_adds_the_next_cuts_and_the_link_to_the_prediction_stays(tab:
     assert stored_area(project) == pytest.approx(WHOLE + math.pi / 4 * (75**2 - 60**2), rel=0.02)
 
 
+def test_the_cap_on_whose_rim_a_stroke_would_begin_is_told_beforehand(tab: Tab) -> None:
+    tab.press("r")
+    scale = tab.page.evaluate("window.fairyring.view.scale")
+    first, second = (shape["uid"] for shape in tab.state("predictions"))
+    for radius, told in ((60 + 12 / scale, first), (30, first), (60 + 20 / scale, None)):
+        tab.page.mouse.move(*tab.screen((350 + radius, 200)))
+        tab.wait_for(f"window.fairyring.state.hovered === {'null' if told is None else repr(told)}")
+    tab.page.mouse.move(*tab.screen((120, 80)))
+    tab.wait_for(f"window.fairyring.state.hovered === {second!r}")
+
+
 def test_ctrl_and_a_drag_cut_with_select_in_hand_and_alt_takes_the_other_side(
     tab: Tab, project: Path
 ) -> None:

@@ -79,6 +79,17 @@ class TestPredictions:
         tab.saved()
         assert live_caps(project) == []
 
+    def test_what_is_left_over_is_turned_down_when_the_photo_is_done(self, tab: Tab, project: Path) -> None:
+        tab.press("Space", "Space", "Control+Enter")
+        question = tab.page.get_by_role("alertdialog", name="Question")
+        question.get_by_role("button", name="Turn the 3 down first").click()
+        tab.wait_for("window.fairyring.state.image.id === 2")
+        tab.press("p")
+        tab.wait_for("window.fairyring.state.image.id === 1")
+        tab.saved()
+        assert (tab.state("image.status"), tab.state("predictions")) == ("annotated", [])
+        assert len(live_caps(project)) == 1
+
     def test_buds_are_ignored_by_one_key(self, tab: Tab, project: Path) -> None:
         tab.press("Shift+I")
         said(tab, "One bud is ignored")

@@ -5,7 +5,8 @@
  * @module
  */
 
-/** @typedef {{text: string, yes: string, no: string}} Question */
+/** @typedef {"yes" | "no" | "down"} Answer  as it is; not now; after what is open has been turned down */
+/** @typedef {{text: string, yes: string, no: string, down: string | null}} Question */
 
 /**
  * @typedef {Object} Counts
@@ -24,6 +25,7 @@ export function questionOf(status, counts) {
       text: `${name} has no cap at all. Is it empty? As “${status}” it teaches that there is none to be found.`,
       yes: "It is empty",
       no: "Go back",
+      down: null,
     };
   // What a file said was said by somebody: by itself it is no reason to ask.
   if (open === 0 && coarse === 0) return null;
@@ -33,6 +35,7 @@ export function questionOf(status, counts) {
     text: `${name} has ${inWords(found)}. Set to “${status}” as it is${means || ", they stay as they are"}.`,
     yes: `Set to “${status}” all the same`,
     no: "Go back",
+    down: open === 0 ? null : open === 1 ? "Turn it down first" : `Turn the ${open} down first`,
   };
 }
 

@@ -18,6 +18,12 @@ test("the question says how many predictions are open, how many caps there are, 
   );
 });
 
+test("what is open may be turned down at once, where anything is", () => {
+  assert.equal(questionOf("annotated", { ...NOTHING, open: 272 })?.down, "Turn the 272 down first");
+  assert.equal(questionOf("annotated", { ...NOTHING, open: 1 })?.down, "Turn it down first");
+  assert.equal(questionOf("annotated", { ...NOTHING, coarse: 1 })?.down, null);
+});
+
 test("where every cap is checked nothing is asked", () => {
   assert.equal(questionOf("annotated", NOTHING), null);
 });

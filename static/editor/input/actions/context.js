@@ -24,7 +24,7 @@
  * @property {import("../../state/review.js").Review} review
  * @property {() => void} blink  draws annotations and predictions in turn, or both again
  * @property {(how: {quiet: boolean}) => void} markAgain  asks for caps that are to be marked again
- * @property {(question: Question) => Promise<boolean>} ask
+ * @property {(question: Question) => Promise<import("../../state/finishing.js").Answer>} ask
  * @property {(question: WordsQuestion) => Promise<Said | null>} askWords
  * @property {() => Promise<number | null>} askScore  from which score on predictions are meant; null for none
  * @property {(message: ToServer) => boolean} send

@@ -6,6 +6,7 @@
 
 import { isCoarse } from "../../geometry/points_needed.js";
 import { isPrediction } from "../../geometry/shapes.js";
+import { changed } from "../../state/changes.js";
 import { questionOf } from "../../state/finishing.js";
 
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
@@ -44,10 +45,17 @@ export async function finishAs({ state, setStatus, ask, say }, status) {
     return false;
   }
   const question = questionOf(status, countsOf(state, image.file_name));
-  if (question && !(await ask(question))) return false;
-  if (state.image?.id !== image.id) return false;
+  const answer = question ? await ask(question) : "yes";
+  if (answer === "no" || state.image?.id !== image.id) return false;
+  if (answer === "down") turnDown(state);
   setStatus(status);
   return true;
+}
+
+/** What nobody has accepted is no cap. @type {(state: EditorState) => void} */
+function turnDown(state) {
+  const open = state.items.all.filter(isPrediction);
+  state.commit(open.map((shape) => changed(shape, { ...shape, deleted: true })));
 }
 
 /** @type {(state: EditorState, name: string) => import("../../state/finishing.js").Counts} */

@@ -37,7 +37,14 @@ export function rimTool(state, say) {
     name: "rim",
     elsewhere: ELSEWHERE,
     effect: (stroke, other) => redrawn(state, stroke, other),
+    meant: (point) => withRimAt(state, point),
   });
+}
+
+/** The cap on whose rim a stroke would begin: the selected one, else the nearest; else the one around it. @type {(state: EditorState, point: Point) => Shape | null} */
+function withRimAt(state, point) {
+  const near = state.rimsNear(point, REACH_PX / state.viewport.view.scale);
+  return near.find(({ uid }) => uid === state.sole?.uid) ?? near[0] ?? state.at(point, 0);
 }
 
 /** @type {(state: EditorState, stroke: Point[], other: boolean) => Effect | null} */

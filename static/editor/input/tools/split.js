@@ -9,7 +9,7 @@ import { newShape, withCap } from "../../geometry/shapes.js";
 import { newId } from "../../ids.js";
 import { changed } from "../../state/changes.js";
 import { StrokeTool, meantBy } from "./stroke.js";
-import { STRAYS_PX } from "./tool.js";
+import { EDGE_PX, STRAYS_PX } from "./tool.js";
 
 /** @typedef {import("../../protocol.js").Point} Point */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
@@ -26,6 +26,7 @@ export function splitTool(state, say) {
     name: "split",
     elsewhere: ELSEWHERE,
     effect: (stroke) => split(state, stroke),
+    meant: (point) => state.at(point, EDGE_PX / state.viewport.view.scale),
   });
 }
 

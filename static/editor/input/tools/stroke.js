@@ -33,6 +33,7 @@ const STEP_PX = 2;
  * @property {string} name  of the tool
  * @property {string} elsewhere  said of a stroke that does nothing
  * @property {(stroke: Point[], other: boolean) => Effect | null} effect  `other`: Alt is held
+ * @property {(point: Point) => Shape | null} meant  the cap that a stroke which begins there is for
  */
 
 /** @implements {Tool} */
@@ -62,7 +63,7 @@ export class StrokeTool {
   /** @type {(press: Press) => void} */
   hover(press) {
     const { selection } = this.#state;
-    const item = this.#state.at(press.image, this.#pixels(EDGE_PX));
+    const item = this.#meaning.meant(press.image);
     selection.hover(item && !selection.has(item.uid) ? item.uid : null);
   }
 
