@@ -20,7 +20,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ListPosition
 from fairyring.storage.records import Image, ImageContents
 
-CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "queue", "review", "cap_plot")
+CHANGES_IMAGE = ("status", "images", "cap", "history", "desk", "queue", "review", "cap_plot", "annotators")
 """The parts of the panel that depend on the image on screen."""
 
 

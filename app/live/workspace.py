@@ -23,7 +23,7 @@ from fairyring.model.progress import Progress
 from fairyring.storage.project import Project
 
 Found = TypeVar("Found")
-FIGURES = ("review", "gallery", "beside", "plots", "cap_plot")
+FIGURES = ("review", "gallery", "beside", "annotators", "plots", "cap_plot")
 """The parts of the panel that show what comparisons say."""
 
 

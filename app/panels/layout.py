@@ -5,6 +5,7 @@ from __future__ import annotations
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import (
+    annotators,
     beside,
     desk,
     gallery,
@@ -35,6 +36,7 @@ ALL = (
         "queue",
         "desk",
         "beside",
+        "annotators",
         "cap_plot",
         "plots",
     ),
@@ -63,6 +65,7 @@ def build_panel(workspace: Workspace, session: Session) -> None:
             parts["review"] = review.build(workspace, session)
             parts["gallery"] = gallery.build(workspace, session)
             parts["beside"] = beside.build(workspace, session)
+            parts["annotators"] = annotators.build(workspace, session)
             parts |= plots.build(workspace, session)
         with pages.add_tab("Jobs"):
             parts["predict"] = predict.build(workspace, session)

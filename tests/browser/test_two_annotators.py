@@ -1,0 +1,59 @@
+"""A second annotator's labels of the same photo, held against the annotations at the reviewer's desk."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fairyring.app.bench.browser.tab import Tab
+from fairyring.app.bench.serving import Server
+from fairyring.storage.choices import ImportAs
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.project import open_project
+from tests.support.annotated_beds import RADIUS, make_annotated_beds
+from tests.support.plain_bed import SIZE, ring
+
+BENS = ((80, 80), (360, 80), (500, 100), (400, 300), (600, 400))
+"""Three of the caps that Ada accepted, the one that she drew, and one that she has not."""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    path = make_annotated_beds(tmp_path, count=2)
+    caps = [
+        {"id": n, "image_id": 1, "category_id": 1, "segmentation": [ring(x, y, RADIUS)]}
+        | {"circle": [x, y, RADIUS], "center": [x, y], "doubt": n == 1}
+        for n, (x, y) in enumerate(BENS, start=1)
+    ]
+    image = {"id": 1, "file_name": "bed_1.png", "width": SIZE[0], "height": SIZE[1]}
+    bens = tmp_path / "ben.json"
+    categories = [{"id": 1, "name": "mushroom"}]
+    bens.write_text(json.dumps({"images": [image], "annotations": caps, "categories": categories}))
+    with open_project(path) as opened:
+        import_paths(opened, [bens], as_=ImportAs.predictions)
+    return path
+
+
+def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two annotators of this photo", exact=True).click()
+    tab.page.get_by_role("combobox", name="Second annotator", exact=True).click()
+    tab.page.get_by_role("option", name="ben.json", exact=True).click()
+    table = tab.page.get_by_role("table", name="Two annotators")
+    for row in ("matched 4", "missed by the second 1", "only the second has (extra) 1", "IoU 1.000"):
+        table.get_by_role("row", name=row, exact=True).wait_for()
+    # Ada took three centres as predicted, which the fit has within a tenth of a pixel.
+    table.get_by_role("row", name=re.compile(r"^between centres, px 0\.0\d$")).wait_for()
+    # Ben alone doubts one of four: they agree no more often than by chance.
+    table.get_by_role("row", name="kappa of doubtful 0.00", exact=True).wait_for()
+    # Its six caps: four of both, and one of each.
+    tab.wait_for("window.fairyring.state.review.caps.length === 6")
+    tab.press("n")
+    tab.page.get_by_text("ben.json holds nothing of this photo.").wait_for()
