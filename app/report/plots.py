@@ -61,7 +61,7 @@ def shifts(found: Sequence[tuple[float, float]]) -> Markup:
     cross = element("circle", cx=_at(mean[0], scale), cy=_at(mean[1], scale), r=4, class_="mean")
     caption = (
         f"Predicted minus marked centre, pixels, edges at ±{reach:.1f}; on the whole "
-        f"{mean[0]:+.2f} right and {mean[1]:+.2f} down. {len(moves) - len(inside)} lie further out."
+        f"Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}. {len(moves) - len(inside)} lie further out."
     )
     return _figure(caption, SIDE, SIDE, *axes, *dots, _ellipse(moves, scale), cross)
 
