@@ -9,6 +9,7 @@ import pytest
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
+from fairyring.model.geometry.shapes import area_of_outline
 from tests.support.kept import kept_cap, live_caps
 from tests.support.plain_bed import make_bed, ring
 from tests.support.said import said
@@ -127,3 +128,24 @@ def test_an_outline_that_runs_across_itself_is_told_of_and_keeps_its_points(tab:
     placed = list(zip(part[::2], part[1::2], strict=True))
     for point in ((600, 300), (600, 380), (520, 380), (530, 290)):
         assert pytest.approx(point, abs=1) in placed
+
+
+def test_an_outline_drawn_into_a_neighbour_ends_at_its_rim_and_undo_gives_it_back(
+    tab: Tab, project: Path
+) -> None:
+    tab.press("w")
+    for point in ((420, 180), (520, 180), (520, 220), (420, 220)):
+        tab.click(point)
+    tab.press("Enter")
+    said(tab, "Cut at its neighbours' borders")
+    tab.saved()
+    [uid] = tab.state("selection")
+    cut = kept_cap(project, uid)
+    tab.press("Control+z")
+    tab.saved()
+    drawn = kept_cap(project, uid)
+    assert cut is not None
+    assert drawn is not None
+    assert area_of_outline(drawn["visible"]) == pytest.approx(100 * 40, rel=0.01)
+    assert min(cut["visible"][0][::2]) > 440
+    assert area_of_outline(cut["visible"]) < 70 * 40

@@ -68,7 +68,7 @@ def test_the_cap_on_whose_rim_a_stroke_would_begin_is_told_beforehand(tab: Tab) 
     tab.press("r")
     scale = tab.page.evaluate("window.fairyring.view.scale")
     first, second = (shape["uid"] for shape in tab.state("predictions"))
-    for radius, told in ((60 + 12 / scale, first), (30, first), (60 + 20 / scale, None)):
+    for radius, told in ((60 + 12 / scale, first), (30, first), (60 + 30 / scale, None)):
         tab.page.mouse.move(*tab.screen((350 + radius, 200)))
         tab.wait_for(f"window.fairyring.state.hovered === {'null' if told is None else repr(told)}")
     tab.page.mouse.move(*tab.screen((120, 80)))

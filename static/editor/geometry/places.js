@@ -10,6 +10,9 @@ import { nearestEdges } from "./vertices.js";
 
 /** @typedef {import("../protocol.js").Point} Point */
 
+/** Who goes no farther than this many times the distance to the rim makes straight for it. */
+const STRAIGHT = 1.5;
+
 /**
  * A place on a ring: on the edge after the vertex `index`.
  *
@@ -18,7 +21,7 @@ import { nearestEdges } from "./vertices.js";
 
 /**
  * Where a stroke begins and ends on a ring, and its points between: near the rim, else where it first and last
- * crosses it.
+ * crosses it. One that begins beside the rim and makes straight for it begins where it crosses.
  *
  * @param {number[]} ring
  * @param {Point[]} stroke
@@ -40,8 +43,20 @@ export function meeting(ring, stroke, reach) {
  */
 function endOf(ring, stroke, reach) {
   const edge = nearestEdges(newCap({ visible: [ring] }), stroke[0], reach);
-  if (edge) return { place: { index: edge.edges[0].index, point: edge.foot }, next: 1 };
-  for (let k = 1; k < stroke.length; k++) {
+  const crossed = firstCrossing(ring, stroke, edge ? STRAIGHT * distance(stroke[0], edge.foot) : Infinity);
+  if (crossed || !edge) return crossed;
+  return { place: { index: edge.edges[0].index, point: edge.foot }, next: 1 };
+}
+
+/**
+ * Where a stroke crosses a ring before it is `longest` long.
+ *
+ * @type {(ring: number[], stroke: Point[], longest: number) => {place: Place, next: number} | null}
+ */
+function firstCrossing(ring, stroke, longest) {
+  let way = 0;
+  for (let k = 1; k < stroke.length && way < longest; k++) {
+    way += distance(stroke[k - 1], stroke[k]);
     for (let index = 0; index < ring.length / 2; index++) {
       const point = crossingOf(stroke[k - 1], stroke[k], vertex(ring, index), vertex(ring, index + 1));
       if (point) return { place: { index, point }, next: k };

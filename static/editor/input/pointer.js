@@ -54,6 +54,8 @@ export class Pointer {
     host.addEventListener("dblclick", (event) => this.#double(event));
     host.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     host.addEventListener("contextmenu", (event) => event.preventDefault());
+    for (const kind of /** @type {const} */ (["keydown", "keyup"]))
+      window.addEventListener(kind, (event) => this.#modified(event));
   }
 
   /** A key is held by which the primary button pans. */
@@ -107,6 +109,15 @@ export class Pointer {
     if (!this.#pressed || this.#panning || event.timeStamp - this.#rawAt < RAW_MS) return;
     this.#rawAt = event.timeStamp;
     this.#drag(event);
+  }
+
+  /** Ctrl changes what a press would do, also while the pointer rests. @type {(event: KeyboardEvent) => void} */
+  #modified({ key, shiftKey: shift, altKey: alt, ctrlKey, metaKey }) {
+    if (key !== "Control" && key !== "Meta") return;
+    if (this.#pressed || this.#panning || !this.#host.matches(":hover")) return;
+    const image = toImage(this.#state.viewport.view, ...this.at);
+    this.#tool().hover({ screen: this.at, image, shift, alt, ctrl: ctrlKey || metaKey });
+    this.cursor();
   }
 
   /** @type {(event: PointerEvent) => void} */

@@ -46,7 +46,7 @@ export class Toolbox {
     this.#state = state;
     this.#changed = changed;
     this.#say = say;
-    this.#polygon = new PolygonTool(state);
+    this.#polygon = new PolygonTool(state, say);
     this.#broom = new Broom(state);
     const rim = rimTool(state, say);
     this.#tools = {

@@ -22,7 +22,7 @@ export function handOf(state, tool) {
     return { screen: toScreen(state.viewport.view, ...image), image, alt, shift, ctrl };
   };
   const hand = {
-    hover: (/** @type {Point} */ at) => tool.hover(press(at)),
+    hover: (/** @type {Point} */ at, /** @type {Held} */ held = {}) => tool.hover(press(at, held)),
     down: (/** @type {Point} */ at, /** @type {Held} */ held = {}) => tool.down(press(at, held)),
     drag: (/** @type {Point[]} */ ...way) => way.forEach((at) => tool.drag(press(at))),
     up: (/** @type {Point} */ at, /** @type {Held} */ held = {}) => tool.up(press(at, held)),

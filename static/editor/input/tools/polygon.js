@@ -5,12 +5,15 @@
  * @module
  */
 
+import { boundsOfPoints } from "../../geometry/bounds.js";
 import { areaOfRing, hundredths, newCap } from "../../geometry/caps.js";
 import { pointsNeeded } from "../../geometry/points_needed.js";
+import { areaOf } from "../../geometry/regions.js";
 import { newShape, withCap } from "../../geometry/shapes.js";
 import { comesRound, simplified } from "../../geometry/strokes.js";
 import { FEWEST } from "../../geometry/vertices.js";
 import { toScreen } from "../../geometry/view.js";
+import { seenOf } from "../../geometry/what_is_seen.js";
 import { newId } from "../../ids.js";
 import { drawHalfDrawn } from "../../render/half_drawn.js";
 import { writeCentred } from "../../render/paths.js";
@@ -29,6 +32,10 @@ const DOUBLE_PX = 8;
 /** A held Ctrl+Z stops at the first point: so soon after it, it is not meant for what was done before. */
 const STOPS_MS = 600;
 
+/** What neighbours hide of a new cap is cut from it where it is more than this share: less is where borders meet. */
+const LEAST_CUT = 0.005;
+const CUT = "Cut at its neighbours' borders: Ctrl+Z gives it back as drawn.";
+
 /** @implements {Tool} */
 export class PolygonTool {
   name = "polygon";
@@ -46,9 +53,15 @@ export class PolygonTool {
   #emptied = -Infinity;
   #state;
 
-  /** @param {EditorState} state */
-  constructor(state) {
+  #say;
+
+  /**
+   * @param {EditorState} state
+   * @param {(text: string) => void} say
+   */
+  constructor(state, say) {
     this.#state = state;
+    this.#say = say;
   }
 
   get #drawn() {
@@ -144,6 +157,27 @@ export class PolygonTool {
     return changed(cap, withCap(cap, { ...cap.cap, visible: [...cap.cap.visible, ring] }));
   }
 
+  /**
+   * A new cap ends where caps begin that lie in front of it, as one does that is drawn as a circle. That is a step
+   * of its own, so that undo gives the outline back as it was drawn.
+   *
+   * @type {(drawn: import("../../geometry/shapes.js").Shape) => import("../../geometry/shapes.js").Shape}
+   */
+  #cutAtNeighbours(drawn) {
+    const state = this.#state;
+    const [ring] = drawn.cap.visible;
+    const around = state.near(boundsOfPoints(ring)).filter(({ uid, cap }) => uid !== drawn.uid && !cap.ignored);
+    const photo = state.image ?? { width: 0, height: 0 };
+    const [whole, seen] = [[], around].map((others) => seenOf(ring, others, photo).visible);
+    const before = state.items.get(drawn.uid);
+    const hidden = areaOf(whole) - areaOf(seen);
+    if (!before || seen.length === 0 || hidden < LEAST_CUT * areaOf(whole)) return drawn;
+    const change = changed(before, withCap(before, { ...before.cap, visible: seen }));
+    state.commit([change]);
+    this.#say(CUT);
+    return change.after;
+  }
+
   finish() {
     const { points } = this.#drawn;
     if (points.length === 0) return false;
@@ -152,9 +186,10 @@ export class PolygonTool {
     this.#before = this.partOf = null;
     this.#drawn.begin([]);
     this.#state.commit([change]);
-    this.#state.select([change.after.uid]);
-    this.#state.signals.draft.emit(change.after);
-    this.#state.signals.drawn.emit(change.after);
+    const shape = change.before ? change.after : this.#cutAtNeighbours(change.after);
+    this.#state.select([shape.uid]);
+    this.#state.signals.draft.emit(shape);
+    this.#state.signals.drawn.emit(shape);
     return true;
   }
 

@@ -23,7 +23,7 @@ import { STRAYS_PX } from "./tool.js";
 /** @typedef {import("./stroke.js").Effect} Effect */
 
 /** So near to the rim a stroke begins and ends, CSS pixels. */
-const REACH_PX = 16;
+const REACH_PX = 24;
 /** So near to a neighbour's rim it follows that, CSS pixels. */
 const SNAP_PX = 5;
 /** An open prediction that would keep less of itself than this was of the cap that is redrawn, and stays as it was said. */

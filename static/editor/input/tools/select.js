@@ -77,6 +77,10 @@ export class SelectTool {
     const state = this.#state;
     this.#at = press.screen;
     this.#removal.moved(press.screen);
+    if (press.ctrl) {
+      this.cursor = this.#rim.cursor;
+      return this.#rim.hover(press);
+    }
     const { selection, sole } = state;
     const handle = sole && this.#handleAt(sole, press);
     this.#under = handle;

@@ -2,6 +2,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { PolygonTool } from "../../../../static/editor/input/tools/polygon.js";
+import { polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
+import { areaOf, shared } from "../../../../static/editor/geometry/regions.js";
 import { handOf } from "../../support/hand.js";
 import { capOf } from "../../support/caps.js";
 import { openState, storedShape } from "../../support/state.js";
@@ -19,7 +21,7 @@ const FIVE = [
 
 function drawing() {
   const { state, committed } = openState();
-  const tool = new PolygonTool(state);
+  const tool = new PolygonTool(state, () => {});
   const hand = handOf(state, tool);
   const rings = () => committed.flat().map(({ after }) => after.cap.visible[0]);
   return { state, tool, hand, rings };
@@ -175,7 +177,7 @@ test("a freehand outline keeps the points that the eye tells apart, and stays wi
 test("the part that is drawn of a cap becomes one of its parts", () => {
   const shape = storedShape("u", capOf(FIVE.flat()));
   const { state, committed } = openState({ shapes: [shape] });
-  const tool = new PolygonTool(state);
+  const tool = new PolygonTool(state, () => {});
   const hand = handOf(state, tool);
   tool.partOf = "u";
   for (const [x, y] of FIVE) hand.click([x + 200, y]);
@@ -184,4 +186,24 @@ test("the part that is drawn of a cap becomes one of its parts", () => {
   for (const [x, y] of FIVE) hand.click([x + 400, y]);
   tool.finish();
   assert.equal(state.items.all.length, 2);
+});
+
+test("a new cap ends at the rim of the neighbour it overlaps, in a step of its own, and a bud upon another stays whole", () => {
+  const neighbour = polygonOfCircle({ kind: "circle", cx: 390, cy: 300, r: 60 });
+  const { state, committed } = openState({ shapes: [storedShape("next", capOf(neighbour))] });
+  /** @type {string[]} */
+  const said = [];
+  const tool = new PolygonTool(state, (text) => void said.push(text));
+  const hand = handOf(state, tool);
+  hand.stroke(around(360));
+  const [drawn, cut] = committed.map(([{ after }]) => after.cap.visible);
+  assert.deepEqual([committed.length, said.length], [2, 1]);
+  // Two circles of 60, 90 apart, share 2 r² acos(d / 2r) − d / 2 √(4r² − d²).
+  const overlap = 2 * 60 ** 2 * Math.acos(0.75) - 45 * Math.sqrt(4 * 60 ** 2 - 90 ** 2);
+  assert.ok(Math.abs(areaOf(drawn) - areaOf(cut) - overlap) < 60);
+  assert.ok(areaOf(shared(cut, [neighbour])) < 2);
+  assert.equal(state.items.get("next")?.cap.visible[0].length, neighbour.length);
+  for (const [x, y] of FIVE) hand.click([390 + (x - 130) / 4, 300 + (y - 150) / 4]);
+  tool.finish();
+  assert.equal(committed.length, 3);
 });

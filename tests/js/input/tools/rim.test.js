@@ -173,3 +173,31 @@ test("a stroke along a neighbour's rim takes nothing of it and leaves no gap", (
   const both = areaOf(shared(strip, now("round"))) + areaOf(shared(strip, now("next")));
   assert.ok(Math.abs(areaOf(strip) - both) < 2, String(both));
 });
+
+test("the cap is shown that a stroke will change, also where the pointer is beside it, and with Ctrl while selecting", () => {
+  const { state, tool, say, hand } = redrawing();
+  hand.hover([398, 300]);
+  assert.equal(state.selection.hovered, "round");
+  hand.hover([450, 300]);
+  assert.equal(state.selection.hovered, null);
+  hand.hover([502, 300]);
+  assert.equal(state.selection.hovered, "beside");
+  const select = handOf(state, new SelectTool(state, { say, rim: tool }));
+  select.hover([398, 300]);
+  assert.equal(state.selection.hovered, null);
+  select.hover([398, 300], { ctrl: true });
+  assert.equal(state.selection.hovered, "round");
+});
+
+test("a stroke that begins and ends beside the rim reaches it: at the nearest place, or where it makes straight for it", () => {
+  const beside = redrawing();
+  const [, ...way] = overQuarter(100).slice(0, -1);
+  beside.hand.stroke([...way]);
+  // At either end the line goes from the rim to the second point of the stroke: less by a sliver of 52 px².
+  assert.ok(Math.abs(area(beside.made()[0].cap.visible) - area([ROUND]) - ADDED) < 150);
+  const through = redrawing();
+  through.hand.stroke(Array.from({ length: 20 }, (_, i) => /** @type {Point} */ ([260, 212 + 9.5 * i])));
+  const angle = Math.acos(0.5);
+  const segment = 80 ** 2 * (angle - Math.sin(angle) / 2);
+  assert.ok(Math.abs(area(through.made()[0].cap.visible) - (area([ROUND]) - segment)) < 40);
+});
