@@ -46,14 +46,12 @@ def reconstruction_of_mark(mark: Mark) -> Reconstruction:
 
     A polygon gives an ellipse where its points go round enough of the rim, else a circle, which fewer points
     determine; where they determine neither, the refusal says so. The deviation follows from how many points
-    there are and where on the rim they lie, each being off by `CLICK_SD`. An ellipse is not placed by hand
-    here, so nobody knows its deviation.
+    there are and where on the rim they lie, each being off by `CLICK_SD`. A circle or an ellipse that a person
+    placed as a whole is taken to be off by as much as one point.
     """
-    if isinstance(mark, Circle):
-        sd = click_sd(mark)
-        return Reconstruction(fit=fit_of_shape(mark, centre_sd=(sd, sd)), why="the marked circle")
-    if isinstance(mark, Ellipse):
-        return Reconstruction(fit=fit_of_shape(mark), why="the marked ellipse")
+    if not isinstance(mark, Polygon):
+        sd, name = click_sd(mark), "circle" if isinstance(mark, Circle) else "ellipse"
+        return Reconstruction(fit=fit_of_shape(mark, centre_sd=(sd, sd)), why=f"the marked {name}")
     vertices = np.asarray(mark.points, np.float64).reshape(-1, 2)
     points = _clicked_once(vertices)
     count = len(points)

@@ -22,6 +22,12 @@ def test_a_circle_and_an_ellipse_stand_for_themselves():
         assert whole_of_mark(mark) is mark
 
 
+@pytest.mark.parametrize(("radius", "off"), [(30.0, 1.0), (10.0, 0.4)])
+def test_a_circle_and_an_ellipse_placed_as_a_whole_are_off_by_a_click(radius: float, off: float):
+    for mark in (Circle(cx=50, cy=60, r=radius), Ellipse(cx=50, cy=60, a=radius, b=radius, theta_deg=10)):
+        assert reconstruction_of_mark(mark).fit.centre_sd == pytest.approx((off, off))
+
+
 def test_unevenly_placed_vertices_on_an_ellipse_give_that_ellipse():
     angles = np.radians([0, 10, 25, 60, 150, 190, 200, 300])
     found = whole_of_mark(polygon(on_ellipse(angles)))
