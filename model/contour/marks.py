@@ -46,8 +46,8 @@ def reconstruction_of_mark(mark: Mark) -> Reconstruction:
 
     A polygon gives an ellipse where its points go round enough of the rim, else a circle, which fewer points
     determine; where they determine neither, the refusal says so. The deviation follows from how many points
-    there are and where on the rim they lie, each being off by `CLICK_SD`. A circle or an ellipse that a person
-    placed as a whole is taken to be off by as much as one point.
+    there are and where on the rim they lie, each being off by `CLICK_SD`. A circle or an ellipse placed as a
+    whole is taken to be off by as much as one point.
     """
     if not isinstance(mark, Polygon):
         sd, name = click_sd(mark), "circle" if isinstance(mark, Circle) else "ellipse"
