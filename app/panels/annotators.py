@@ -7,6 +7,7 @@ from functools import partial
 
 from sqlalchemy import Connection
 
+from fairyring.app.editor_commands import COMMANDS
 from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
@@ -26,7 +27,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     gui = session.client.gui
     with gui.add_folder("Two annotators of this photo", expand_by_default=False):
         second = gui.add_dropdown(
-            "Second annotator", [str(NOBODY)], hint="U draws this version beside the annotations"
+            "Second annotator",
+            [str(NOBODY)],
+            hint=f"{COMMANDS['review'].keys[0]} draws this version beside the annotations",
         )
         shown = gui.add_html("")
 

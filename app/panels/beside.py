@@ -8,6 +8,7 @@ from functools import partial
 
 from sqlalchemy import Connection
 
+from fairyring.app.editor_commands import COMMANDS
 from fairyring.app.jobs.comparing import compare_with_run_work
 from fairyring.app.live.reviewing import tell_differences
 from fairyring.app.live.session import Session
@@ -52,7 +53,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         first = gui.add_dropdown("First run", [str(NOTHING)])
         second = gui.add_dropdown("Second run", [str(LATEST)])
         drawn = gui.add_dropdown(
-            "On the photo", [str(ON_SCREEN)], hint="Whose outlines and centres U draws beside the annotations"
+            "On the photo",
+            [str(ON_SCREEN)],
+            hint=f"Whose outlines and centres {COMMANDS['review'].keys[0]} draws beside the annotations",
         )
         shown = gui.add_html("")
         compare = gui.add_button("Compare images with these runs", visible=False)
