@@ -18,6 +18,13 @@ from fairyring.storage.records import Annotation, Image, Prediction, Run
 from fairyring.storage.runs import predictions_by
 
 
+async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
+    """Has photos compared with this run from now on (None: with the one on screen), this one at once."""
+    session.run_on_photo = run
+    if session.image is not None:
+        await tell_differences(workspace, session, session.image.id)
+
+
 async def tell_differences(workspace: Workspace, session: Session, image_id: int) -> None:
     """Compares an image as it is stored now with the run on screen, or the one that the person chose.
 

@@ -8,7 +8,7 @@ from functools import partial
 from sqlalchemy import Connection
 
 from fairyring.app.editor_commands import COMMANDS
-from fairyring.app.live.reviewing import tell_differences
+from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
@@ -35,12 +35,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def choose() -> None:
         chosen = second.value
-        session.run_on_photo = (
-            None if chosen == NOBODY else await workspace.read(lambda c: require_run(c, chosen))
-        )
+        run = None if chosen == NOBODY else await workspace.read(lambda c: require_run(c, chosen))
         session.redraw_at_once(("annotators",))
-        if session.image is not None:
-            await tell_differences(workspace, session, session.image.id)
+        await compare_photo_with(workspace, session, run)
 
     async def redraw() -> None:
         image = session.image.id if session.image else None

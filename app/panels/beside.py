@@ -10,7 +10,7 @@ from sqlalchemy import Connection
 
 from fairyring.app.editor_commands import COMMANDS
 from fairyring.app.jobs.comparing import compare_with_run_work
-from fairyring.app.live.reviewing import tell_differences
+from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
@@ -68,10 +68,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         session.redraw_at_once(("beside",))
 
     async def draw() -> None:
-        chosen = partial(_run_called, name=None if drawn.value == ON_SCREEN else drawn.value)
-        session.run_on_photo = await workspace.read(chosen)
-        if session.image is not None:
-            await tell_differences(workspace, session, session.image.id)
+        chosen = drawn.value
+        run = None if chosen == ON_SCREEN else await workspace.read(lambda c: require_run(c, chosen))
+        await compare_photo_with(workspace, session, run)
 
     async def start() -> None:
         for run in (await find()).lacking:
@@ -92,10 +91,6 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     drawn.on_update(person_did(session, draw))
     compare.on_click(person_did(session, start))
     return redraw
-
-
-def _run_called(connection: Connection, *, name: str | None) -> Run | None:
-    return None if name is None else require_run(connection, name)
 
 
 def find_beside(connection: Connection, *, chosen: str | None, against: str | None = None) -> Beside:
