@@ -82,7 +82,8 @@ export class Editor {
   constructor(host, url) {
     const send = (/** @type {ToServer} */ message) => this.#send(message);
     const state = (this.#state = new EditorState((changes) => this.#sync.commit(changes)));
-    this.#going = goingIn(state, send);
+    const select = (/** @type {string} */ uid) => void this.#reviewing.select(uid);
+    this.#going = goingIn(state, send, select);
     this.#transport = new Transport(url, {
       hello: (token) => ({ type: "hello", token, image: state.image?.id ?? firstAddress()?.image ?? null }),
       message: (message) => this.#receiveInOrder(message),
@@ -159,6 +160,7 @@ export class Editor {
       photos,
       frame: this.#frame,
       drawings: this.#drawings,
+      select,
       say: this.#say,
       look: () => void this.#found.ask(LOOK, { keep: false }),
     });

@@ -8,13 +8,14 @@ import { isPrediction } from "./geometry/shapes.js";
  *
  * @param {EditorState} state
  * @param {(message: ToServer) => boolean} send
+ * @param {(uid: string) => void} select  a cap of the image on screen
  */
-export function goingIn(state, send) {
-  /** @type {(image: number, select: string | null) => void} */
-  function open(image, select) {
+export function goingIn(state, send, select) {
+  /** @type {(image: number, cap: string | null) => void} */
+  function open(image, cap) {
     state.commitDrafts();
-    if (image !== state.image?.id) send({ type: "open", image, select });
-    else if (select) state.select([select], { reveal: true });
+    if (image !== state.image?.id) send({ type: "open", image, select: cap });
+    else if (cap) select(cap);
   }
 
   /** @type {(image: number, uid: string) => void} */

@@ -25,6 +25,7 @@ import { firstAddress, putCapInAddress, putInAddress } from "./ui/address.js";
  * @property {Frame} frame
  * @property {KeptDrawings} drawings
  * @property {() => void} look  has the network look at the photo
+ * @property {(uid: string) => void} select  a cap of the image
  * @property {(text: string, level: "info" | "warning" | "error") => void} say
  */
 
@@ -53,7 +54,7 @@ export class Opening {
 
   /** The server sends an image, which may be a fresh copy of the same. @type {(message: Show) => void} */
   show({ contents, photo, select, ahead }) {
-    const { state, sync, liveFit, photos, frame, say } = this.#parts;
+    const { state, sync, liveFit, photos, frame, select: selectCap, say } = this.#parts;
     const asked = this.#asked ?? performance.now();
     this.#asked = null;
     const { image } = contents;
@@ -65,7 +66,7 @@ export class Opening {
     sync.open(image, contents.annotations, contents.unchecked);
     state.open(contents);
     const cap = select ?? (first?.image === image.id ? first.cap : null);
-    if (cap) state.select([cap], { reveal: true });
+    if (cap) selectCap(cap);
     if (another) this.#arrive(image.id);
     photos
       .open(photo, image)

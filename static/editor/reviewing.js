@@ -5,6 +5,7 @@
  * @module
  */
 
+import { isUidOfPrediction } from "./geometry/shapes.js";
 import { drawReview } from "./render/review_lines.js";
 import { Review } from "./state/review.js";
 
@@ -32,6 +33,7 @@ export class Reviewing {
       if (this.review.on && !was) this.ask();
       was = this.review.on;
       if (!was) this.#stay();
+      state.showBesides(this.review.extra(state.image?.id ?? 0));
       state.signals.overlay.emit();
     });
   }
@@ -45,6 +47,16 @@ export class Reviewing {
   /** @type {(message: Compared) => void} */
   take({ image, caps }) {
     if (image === this.#state.image?.id) this.review.take(image, caps);
+  }
+
+  /** Selects a cap of the image on screen, which may be one that only the comparison knows. @type {(uid: string) => Promise<void>} */
+  async select(uid) {
+    const state = this.#state;
+    state.select([uid], { reveal: true });
+    const [{ image }, { review }] = [state, this];
+    if (state.selection.has(uid) || !image || !review.on || !isUidOfPrediction(uid)) return;
+    await review.known(image.id);
+    if (state.image?.id === image.id && state.selection.uids.size === 0) state.select([uid], { reveal: true });
   }
 
   /** Draws annotations and predictions in turn, or both again. */

@@ -77,6 +77,11 @@ export function uidOfPrediction(id) {
   return `prediction:${id}`;
 }
 
+/** @type {(uid: string) => boolean} */
+export function isUidOfPrediction(uid) {
+  return uid.startsWith("prediction:");
+}
+
 /** @type {(shape: Shape) => boolean} */
 export function isPrediction(shape) {
   return shape.score !== null;

@@ -10,6 +10,7 @@ import { newId } from "../ids.js";
 
 /** @typedef {import("../protocol.js").Cap} Cap */
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("./store.js").Store} Store */
 /** @typedef {{before: Shape | null, after: Shape}} Change  `before` is null for a cap that is new */
 
 /**
@@ -23,6 +24,39 @@ import { newId } from "../ids.js";
 export function changed(before, after) {
   if (!isPrediction(before)) return { before, after: { ...after, checked: true } };
   return { before: null, after: { ...after, uid: newId(), revision: 0, score: null, checked: true } };
+}
+
+/**
+ * The same changes for a store in which a prediction stands for one cap at most. Where somebody turned it down, the
+ * cap that says so comes back; where it is a cap already, what is made of it is one that started from nothing. To
+ * turn down what is decided already changes nothing.
+ *
+ * @param {Change[]} changes
+ * @param {Store} store
+ * @returns {Change[]}
+ */
+export function madeApart(changes, store) {
+  if (!changes.some(startsFromPrediction)) return changes;
+  const held = heirsIn(store);
+  return changes.flatMap((change) => {
+    const { after } = change;
+    const heir = startsFromPrediction(change) ? held.get(after.cap.prediction) : undefined;
+    if (!heir) return [change];
+    if (after.deleted) return [];
+    if (heir.deleted) return [{ before: heir, after: { ...after, uid: heir.uid, revision: heir.revision } }];
+    return [{ before: null, after: { ...after, cap: { ...after.cap, prediction: null } } }];
+  });
+}
+
+/** What became of each prediction that somebody has decided upon. @type {(store: Store) => Map<number | null, Shape>} */
+export function heirsIn(store) {
+  const heirs = store.all().filter(({ cap }) => cap.prediction !== null);
+  return new Map(heirs.map((shape) => [shape.cap.prediction, shape]));
+}
+
+/** @type {(change: Change) => boolean} */
+function startsFromPrediction({ before, after }) {
+  return before === null && after.cap.prediction !== null;
 }
 
 /**

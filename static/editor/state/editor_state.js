@@ -9,7 +9,7 @@ import { joinedAll } from "../geometry/bounds.js";
 import { placedWhole } from "../geometry/caps.js";
 import { allAround, pick, withRimNear } from "../geometry/hit.js";
 import { boundsOf, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
-import { changed } from "./changes.js";
+import { changed, madeApart } from "./changes.js";
 import { Clipboard } from "./clipboard.js";
 import { Drafts } from "./drafts.js";
 import { Gesture } from "./gesture.js";
@@ -153,7 +153,12 @@ export class EditorState {
    */
   at([x, y], reach) {
     const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
-    return pick(this.near(around), [x, y], reach);
+    return pick([...this.near(around), ...this.#besides], [x, y], reach);
+  }
+
+  /** What a reviewer can pick although it is not drawn with the caps. */
+  get #besides() {
+    return this.layers.allHidden ? [] : this.items.besides;
   }
 
   /**
@@ -168,7 +173,7 @@ export class EditorState {
 
   /** The visible items that a point lies in, the one that is meant first. @type {(point: Point) => Shape[]} */
   allAt([x, y]) {
-    return allAround(this.near({ x0: x, y0: y, x1: x, y1: y }), [x, y]);
+    return allAround([...this.near({ x0: x, y0: y, x1: x, y1: y }), ...this.#besides], [x, y]);
   }
 
   /** The visible items of which anything may be drawn in the rectangle. @type {(bounds: Bounds) => Shape[]} */
@@ -185,7 +190,10 @@ export class EditorState {
     const same = this.image?.id === image.id;
     this.image = image;
     this.items.predictions = predictions.map(shapeOfPrediction);
-    if (!same) this.#forgetDrafts();
+    if (!same) {
+      this.items.besides = [];
+      this.#forgetDrafts();
+    }
     this.selection.hover(null);
     this.viewport.open(image);
     const kept = same ? [...this.selection.uids].filter((uid) => this.shape(uid)) : [];
@@ -210,6 +218,12 @@ export class EditorState {
   #forgetDrafts() {
     this.drafts.clear();
     this.endGesture();
+  }
+
+  /** Has a reviewer see and pick these predictions besides. @type {(predictions: Prediction[]) => void} */
+  showBesides(predictions) {
+    this.items.besides = predictions.map(shapeOfPrediction);
+    this.selection.keep((uid) => this.shape(uid) !== null);
   }
 
   /**
@@ -279,12 +293,14 @@ export class EditorState {
    */
   commit(changes) {
     if (changes.length && this.halfDrawn.empty) this.halfDrawn.begin([]);
-    this.#commit(this.#gesture.asBegun(changes));
+    const apart = madeApart(changes, this.store);
+    this.#commit(this.#gesture.asBegun(apart));
     /** @type {Map<string, string>} */
     const heirs = new Map();
-    for (const { before, after } of changes) {
+    for (const { before, after } of apart) {
       const { prediction } = after.cap;
-      if (!before && !after.deleted && prediction !== null) heirs.set(uidOfPrediction(prediction), after.uid);
+      if ((!before || before.deleted) && !after.deleted && prediction !== null)
+        heirs.set(uidOfPrediction(prediction), after.uid);
     }
     if ([...this.selection.uids].some((uid) => heirs.has(uid))) this.selection.follow(heirs);
   }

@@ -1,6 +1,7 @@
 /**
  * What can be seen and picked on the image: live annotations, and predictions that nobody has taken up or
- * turned down. Found by uid and by place, without looking at all of them.
+ * turned down. Found by uid and by place, without looking at all of them. Those that a reviewer is shown besides
+ * are found by uid, too.
  *
  * @module
  */
@@ -20,6 +21,8 @@ export class Items {
   /** @type {Map<string, {shape: Shape, order: number}>} */
   #byUid = new Map();
   #grid = new Grid();
+  /** @type {Map<string, Shape>} */
+  #besides = new Map();
   /** The version of the store that all this was made of. */
   #version = -1;
   #store;
@@ -39,6 +42,16 @@ export class Items {
     this.#version = -1;
   }
 
+  /** Predictions that a reviewer is shown although somebody has decided upon them, or another run made them. */
+  get besides() {
+    this.#update();
+    return [...this.#besides.values()].filter(({ uid }) => !this.#byUid.has(uid));
+  }
+
+  set besides(shapes) {
+    this.#besides = new Map(shapes.map((shape) => [shape.uid, shape]));
+  }
+
   /** In the order in which they are drawn, predictions first. */
   get all() {
     this.#update();
@@ -48,7 +61,7 @@ export class Items {
   /** @type {(uid: string) => Shape | null} */
   get(uid) {
     this.#update();
-    return this.#byUid.get(uid)?.shape ?? null;
+    return this.#byUid.get(uid)?.shape ?? this.#besides.get(uid) ?? null;
   }
 
   /** The items of which anything may be drawn in `bounds`, in the order of `all`. @type {(bounds: Bounds) => Shape[]} */

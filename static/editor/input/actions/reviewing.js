@@ -5,7 +5,7 @@
  */
 
 import { changed } from "../../state/changes.js";
-import { lookAt, nextOf, takePrediction } from "../../state/review.js";
+import { Standing, decideOn, lookAt, partnerOf, takePrediction, uidOf } from "../../state/review.js";
 import { finishAs } from "./image.js";
 
 /** @typedef {import("../../protocol.js").Says} Says */
@@ -27,19 +27,20 @@ export async function walkDifferences({ state, review, say }, by) {
   review.on = true;
   await review.known(image.id);
   if (state.image?.id !== image.id) return;
-  const next = nextOf(state, review, by);
+  const next = new Standing(state, review).next(by);
   if (next) lookAt(state, next);
   else say(ALL_DECIDED);
 }
 
 /** Has the selected cap be as the network said. @type {(context: Context) => void} */
 export function takeModels(context) {
-  decide(context, (shape, cap) => takePrediction(context.state, shape, cap));
+  decide(context, (_, cap) => takePrediction(context.state, context.review, cap));
 }
 
 /** The person was right: the cap is approved, a prediction without a cap turned down. @type {(context: Context) => void} */
 export function takeAnnotators(context) {
-  decide(context, (shape, { annotation }) => {
+  decide(context, (shape, cap) => {
+    const annotation = cap.annotation ?? partnerOf(context.state, context.review, cap)?.annotation;
     if (annotation) context.judge(annotation, "approved", "");
     else context.state.commit([changed(shape, { ...shape, deleted: true })]);
   });
@@ -50,9 +51,8 @@ function decide({ state, review, say }, carryOut) {
   state.commitDrafts();
   const [cap, [shape]] = [review.selected(state), state.selected];
   if (!cap || !shape) return say(NONE_SELECTED);
-  const next = nextOf(state, review, 1);
-  review.decided.add(shape.uid);
-  carryOut(shape, cap);
+  decideOn(state, review, cap, () => carryOut(shape, cap));
+  const next = new Standing(state, review).after(uidOf(cap));
   if (next) lookAt(state, next);
   else say(ALL_DECIDED);
 }
