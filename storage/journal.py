@@ -196,9 +196,9 @@ def _commit_one(
         if current is None and edit.base != 0:
             raise StoreError("There is no such annotation; reload the image.")
         if current is not None and not _is_made_on(edit, current):
-            return Conflict(edit=edit.id, theirs=current, user=ledger.editors[current.uid])
+            return Conflict(edit=edit.id, theirs=current, user=ledger.last_editor(connection, current.uid))
         if (other := _taken_up_by(ledger, edit, current)) is not None:
-            return Conflict(edit=edit.id, theirs=other, user=ledger.editors[other.uid])
+            return Conflict(edit=edit.id, theirs=other, user=ledger.last_editor(connection, other.uid))
         cap = _fitting(connection, ledger, edit, checked)
     except FairyringError as error:
         return Refused(edit=edit.id, reason=str(error))

@@ -26,11 +26,20 @@ from fairyring.storage.db.rows import (
     values_of_annotation_fit,
     values_of_cap,
 )
-from fairyring.storage.records import Annotation, Cap, Edit
+from fairyring.storage.records import IMPORT, Annotation, Cap, Edit
 
 Key = TypeVar("Key", str, int)
 CHUNK = 500
 """How many rows are asked for in one statement."""
+
+
+@dataclass(frozen=True)
+class MadeBefore:
+    """A cap as somebody made it; None where they deleted it."""
+
+    cap: Cap | None
+    user: str
+    made_at: str
 
 
 @dataclass(kw_only=True)
@@ -47,8 +56,8 @@ class Ledger:
     """Digests of the stored edits, by edit id."""
     annotations: dict[str, Annotation]
     """By uid; deleted ones too."""
-    editors: dict[str, str]
-    """Who edited each annotation last, by uid."""
+    made_before: dict[str, list[MadeBefore]]
+    """How the annotations were that take-backs name, the first one first, by uid."""
     starters: dict[int, set[str]]
     """The uids of the annotations that started from each of the predictions named."""
     change_sets: ChangeSets
@@ -61,7 +70,9 @@ class Ledger:
         """Notes an edit that can be stored, with its checked cap; returns the annotation as it is then."""
         before, time, uid = self.annotations.get(edit.annotation), now(), edit.annotation
         revision = 1 if before is None else before.revision + 1
-        values = {"revision": revision, "deleted": cap is None, "edited_by": user, "edited_at": time}
+        made = self._made_by(edit, cap) or MadeBefore(cap, user, time)
+        values = {"revision": revision, "deleted": cap is None}
+        values |= {"edited_by": made.user, "edited_at": made.made_at}
         if cap is not None:
             values |= values_of_cap(cap, categories=self.categories) | values_of_annotation_fit(fit)
         if before is None:
@@ -90,8 +101,21 @@ class Ledger:
         if cap is not None and cap.prediction is not None:
             self.starters.setdefault(cap.prediction, set()).add(uid)
         after = _after(edit, before, cap, fit, revision=revision)
-        self.annotations[uid], self.editors[uid], self.digests[edit.id] = after, user, digest
+        self.annotations[uid], self.digests[edit.id] = after, digest
+        self.made_before.setdefault(uid, []).append(made)
         return after
+
+    def _made_by(self, edit: Edit, cap: Cap | None) -> MadeBefore | None:
+        """Whose work a cap is that is again what it was; None where nothing is taken back."""
+        before = self.made_before.get(edit.annotation, []) if edit.takes_back else []
+        return next((each for each in before if each.cap == cap), None)
+
+    def last_editor(self, connection: Connection, uid: str) -> str:
+        """Who made the last edit of an annotation, be it to take one back."""
+        here = (each["user"] for each in reversed(self._entries) if each["annotation"] == uid)
+        stored = select(schema.edit.c.user).where(schema.edit.c.annotation == uid)
+        last = stored.order_by(schema.edit.c.revision.desc()).limit(1)
+        return next(here, None) or connection.execute(last).scalar_one_or_none() or IMPORT
 
     def holder_of(self, prediction: int, *, besides: str) -> Annotation | None:
         """Another annotation that has taken this prediction up or turned it down; a live one first."""
@@ -148,10 +172,20 @@ def open_ledger(connection: Connection, edits: Sequence[Edit], *, user: str) -> 
         },
         digests=stored_digests(connection, edits),
         annotations={row.uid: annotation_of(row) for row in rows},
-        editors={row.uid: row.edited_by for row in rows},
+        made_before=_made_before(connection, [each for each in edits if each.takes_back]),
         starters=starters,
         change_sets=ChangeSets(connection, user=user),
     )
+
+
+def _made_before(connection: Connection, taking_back: Sequence[Edit]) -> dict[str, list[MadeBefore]]:
+    edit = schema.edit
+    made: dict[str, list[MadeBefore]] = {}
+    for uids in chunks(each.annotation for each in taking_back if is_name(each.annotation)):
+        asked = select(edit.c.annotation, edit.c.after, edit.c.user, edit.c.made_at)
+        for row in connection.execute(asked.where(edit.c.annotation.in_(uids)).order_by(edit.c.revision)):
+            made.setdefault(row.annotation, []).append(MadeBefore(row.after, row.user, row.made_at))
+    return made
 
 
 def stored_digests(connection: Connection, edits: Sequence[Edit]) -> dict[str, str]:

@@ -12,7 +12,7 @@ from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.schema import annotation, edit, image, repeat
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Repeat
+from fairyring.storage.records import Cap, Mark, Repeat
 from fairyring.storage.rules import rules_of
 
 ANOTHER_DAY = timedelta(hours=16)
@@ -73,17 +73,23 @@ def chance_of(uid: str, *, seed: int) -> float:
 
 
 def placed_mark(connection: Connection, uid: str, user: str) -> bool:
-    """Whether the mark that a cap has now is of this person, and of a kind that is placed by hand."""
+    """Whether the mark that a cap has now is of this person, and of a kind that is placed by hand.
+
+    A mark that was gone for a while is of whoever placed it first, be it put back by somebody else.
+    """
     edits = connection.execute(
         select(edit.c.before, edit.c.after, edit.c.user)
         .where(edit.c.annotation == uid)
-        .order_by(edit.c.revision.desc())
+        .order_by(edit.c.revision)
     )
-    for each in edits:
-        mark = each.after.mark if each.after is not None else None
-        if mark != (each.before.mark if each.before is not None else None):
-            return each.user == user and isinstance(mark, Circle | Polygon)
-    return False
+    placed = [(_mark_of(each.before), _mark_of(each.after), each.user) for each in edits]
+    mark = placed[-1][1] if placed else None
+    placers = (by for before, after, by in placed if after == mark != before)
+    return isinstance(mark, Circle | Polygon) and next(placers, None) == user
+
+
+def _mark_of(cap: Cap | None) -> Mark | None:
+    return None if cap is None else cap.mark
 
 
 def store_repeat(connection: Connection, made: Repeat) -> None:

@@ -65,6 +65,15 @@ def test_who_placed_the_mark_is_asked_and_not_while_the_image_is_on_screen(marke
     assert due(marked, "ben") is None
 
 
+def test_a_mark_that_somebody_takes_away_and_puts_back_is_still_of_who_placed_it(marked, square) -> None:
+    ask(marked)
+    one(marked, "e2", base=1, cap=Cap(visible=square), user="ben", change_set="taken")
+    assert due(marked) is None
+    one(marked, "e3", base=2, cap=Cap(visible=square, mark=MARK), user="ben", takes_back="taken")
+    assert due(marked) == ("cap", 1, True)
+    assert due(marked, "ben") is None
+
+
 def test_a_share_of_the_caps_is_chosen_by_the_seed(beds, square) -> None:
     edits = [
         Edit(id=f"e{n}", annotation=f"c{n}", image=1, base=0, cap=Cap(visible=square, mark=MARK))

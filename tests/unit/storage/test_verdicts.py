@@ -4,9 +4,11 @@ import sqlite3
 
 import pytest
 
+from fairyring.storage.contents import load_predictions
 from fairyring.storage.image_history import list_change_sets
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import commit
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Refused, Rules, Says, StatusEdit, StatusStored, Verdict
 from fairyring.storage.rules import rules_of, set_rules
 from fairyring.storage.taken_out import put_back, take_out
@@ -117,8 +119,55 @@ def test_before_anybody_says_annotated_all_who_changed_caps_have_labelled_it(bed
     assert status(judge(beds, "v2", user="rev")) == "approved"
 
 
-def test_a_reviewer_who_corrects_a_cap_still_approves(annotated):
+def predicted(project, *outlines):
+    """The numbers of what a network sees on the first image."""
+    run = project.write(lambda c: add_run(c, name="run", kind="network"))
+    caps = [NewPrediction(visible=visible, score=0.9) for visible in outlines]
+    project.write(lambda c: add_predictions(c, run_id=run.id, image_id=1, predictions=caps))
+    with project.read() as connection:
+        return [each.id for each in load_predictions(connection, 1)]
+
+
+def test_a_reviewer_who_takes_the_networks_outline_or_deletes_a_cap_still_approves(annotated, square):
+    (number,) = predicted(annotated, TRIANGLE)
     one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev")
+    one(annotated, "e3", annotation="b", cap=Cap(visible=TRIANGLE, prediction=number), user="rev")
+    one(annotated, "e4", annotation="c", cap=Cap(visible=square), user="ann")
+    one(annotated, "e5", annotation="c", base=1, cap=None, user="rev")
+    assert status(judge(annotated)) == "approved"
+
+
+def test_a_reviewer_who_draws_cannot_approve_until_somebody_else_has_looked_at_it(annotated):
+    one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev")
+    assert "nobody else has looked at it since" in reason(judge(annotated))
+    judge(annotated, "v2", says="sent_back", words="I have redrawn it")
+    assert "nobody else has looked" in reason(judge(annotated, "v3"))
+    set_to(annotated, "s2", "new", "annotated", user="ann")
+    assert status(judge(annotated, "v4")) == "approved"
+
+
+def test_what_a_reviewer_does_to_a_rejected_image_is_work_of_their_own(annotated):
+    judge(annotated, "v1", says="rejected", words="Out of focus")
+    one(annotated, "e2", base=1, cap=None, user="rev")
+    assert "nobody else has looked" in reason(judge(annotated, "v2"))
+    assert status(judge(annotated, "v3", user="ben")) == "approved"
+
+
+def test_a_rejection_may_be_thought_better_of(annotated):
+    judge(annotated, "v1", says="rejected", words="Out of focus")
+    assert status(judge(annotated, "v2")) == "approved"
+
+
+def test_what_was_taken_back_is_nobodys_work(beds, square):
+    one(beds, "e1", cap=Cap(visible=square), user="ann")
+    one(beds, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev", change_set="drawn")
+    one(beds, "e3", base=2, cap=Cap(visible=square), user="rev", takes_back="drawn")
+    set_to(beds, "s1", "new", "annotated", user="ann")
+    assert status(judge(beds)) == "approved"
+
+
+def test_flags_that_a_reviewer_sets_are_no_drawing(annotated, square):
+    one(annotated, "e2", base=1, cap=Cap(visible=square, doubtful=True), user="rev")
     assert status(judge(annotated)) == "approved"
 
 

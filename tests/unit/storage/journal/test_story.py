@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from sqlalchemy import delete, exc, update
 
 from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.contents import load_editors
 from fairyring.storage.db import schema
 from fairyring.storage.journal import commit, history
 from fairyring.storage.project import open_project
@@ -34,6 +35,33 @@ def test_the_journal_tells_the_whole_story(beds, cap):
     ]
     assert [e.made_at for e in entries] == sorted(e.made_at for e in entries)
     assert entries[0].made_at.endswith("Z")
+
+
+def authors(project):
+    with project.read() as connection:
+        return load_editors(connection, 1)
+
+
+def test_undo_gives_a_cap_back_to_whoever_made_it_and_redo_to_whoever_changed_it(beds, square):
+    marked = Cap(visible=square, mark=Circle(20, 20, 9))
+    one(beds, "e1", cap=marked, user="ann")
+    one(beds, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev", change_set="taken")
+    assert authors(beds) == {"cap": "rev"}
+    one(beds, "e3", base=2, cap=marked, user="rev", change_set="undo", takes_back="taken")
+    assert authors(beds) == {"cap": "ann"}
+    one(beds, "e4", base=3, cap=Cap(visible=TRIANGLE), user="rev", takes_back="undo")
+    assert authors(beds) == {"cap": "rev"}
+    assert [user for *_, user in journal_rows(beds)] == ["ann", "rev", "rev", "rev"]
+
+
+def test_undoing_a_deletion_gives_the_cap_back_and_who_is_late_hears_who_undid_it(beds, cap):
+    one(beds, "e1", cap=cap, user="ann")
+    one(beds, "e2", base=1, cap=None, user="rev", change_set="gone")
+    one(beds, "e3", base=2, cap=cap, user="rev", takes_back="gone")
+    assert authors(beds) == {"cap": "ann"}
+    late = one(beds, "e4", base=1, cap=Cap(visible=TRIANGLE), user="ann")
+    assert isinstance(late, Conflict)
+    assert late.user == "rev"
 
 
 @pytest.mark.parametrize("statement", [delete(schema.edit), update(schema.edit).values(user="nobody")])
