@@ -33,7 +33,8 @@ DRAWINGS = {
         journal  formats  migrations  image_history
         judging
         statuses  splits  exported_photos
-        project  images  contents  predictions  runs  provenance  comparisons  derived  ledger  own_work
+        own_work
+        project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
         repeats  compared_runs
         change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
         db  cap_validity  open_predictions  originals
