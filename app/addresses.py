@@ -27,9 +27,14 @@ def photo_address(image: Image) -> str:
     return f"/photos/{image.id}/{content_of(image)}"
 
 
-def review_address(what: str, *, only_sure: bool = False, image: int | None = None) -> str:
-    """Where the browser finds a review, one of its plots, or a table of it: of all images, or of one."""
-    asked = {"sure": "1" if only_sure else None, "image": image}
+def review_address(
+    what: str, *, only_sure: bool = False, image: int | None = None, run: int | None = None
+) -> str:
+    """Where the browser finds a review, one of its plots, or a table of it.
+
+    It is of all images, or of one; against a run, or the latest of each image.
+    """
+    asked = {"sure": "1" if only_sure else None, "image": image, "run": run}
     query = urlencode({name: value for name, value in asked.items() if value is not None})
     return f"/review/{what}?{query}" if query else f"/review/{what}"
 

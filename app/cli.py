@@ -29,6 +29,7 @@ from fairyring.app.commands import (
 )
 from fairyring.app.commands.ending import Commands
 from fairyring.app.commands.version import print_version
+from fairyring.app.review.what_cdr_is import ABOUT
 from fairyring.model.errors import FairyringError
 
 app = typer.Typer(
@@ -57,7 +58,7 @@ app.command("train")(network.train)
 app.command("predict")(network.predict)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
-app.command("review")(review.review)
+app.command("review", epilog=ABOUT)(review.review)
 app.command("rules")(rules.rules)
 app.command("agreement")(agreement.agreement)
 app.add_typer(evaluate.commands, name="evaluate")

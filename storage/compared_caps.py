@@ -33,9 +33,11 @@ class CapFigures(Struct, frozen=True, kw_only=True):
     """Predicted minus marked x, pixels; ``dy`` likewise."""
     dy: float | None = None
     annotator: str | None = None
-    """Who edited it last; of an extra prediction None, as are the next three."""
+    """Who edited it last; of an extra prediction who edited most caps of its image."""
     size: str | None = None
+    """By what is seen of it; of an extra prediction as that shows it."""
     shape: str | None = None
+    """Of its mark; of an extra prediction None, as is the next."""
     visibility: str | None = None
     doubtful: bool = False
     unsure: bool = False

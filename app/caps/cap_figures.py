@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 from msgspec import structs
 
-from fairyring.app.caps.records import floor_of_mark, is_unsure
+from fairyring.app.caps.records import floor_of_mark, is_unsure, prediction_record
 from fairyring.app.caps.repeated import Marks
 from fairyring.model.evaluate import centres
 from fairyring.model.evaluate.caps import CapRecord
+from fairyring.model.evaluate.sizes import size_of_cap
 from fairyring.storage.compared_caps import CapFigures
 from fairyring.storage.records import Annotation, Image, Prediction
 
@@ -32,9 +33,15 @@ def figures_of_caps(sides: Sides, found: centres.Comparison, *, run_id: int) -> 
     alone = CapFigures(image=sides.image.id, run=run_id, annotation=None, prediction=None)
     matched = [_of_pair(sides, pair, alone) for pair in found.pairs]
     missed = [_with_mark(alone, sides, number) for number in found.missed]
-    extra = [structs.replace(alone, prediction=sides.predictions[number].id) for number in found.extra]
+    extra = [_extra(sides, number, alone) for number in found.extra]
     ignored = [nth for nth, each in enumerate(sides.annotations) if each.cap.ignored]
     return [*matched, *missed, *extra, *(_with_mark(alone, sides, number) for number in ignored)]
+
+
+def _extra(sides: Sides, number: int, alone: CapFigures) -> CapFigures:
+    said = sides.predictions[number]
+    size = size_of_cap(prediction_record(said, sides.image))
+    return structs.replace(alone, prediction=said.id, size=size, annotator=sides.marks.annotator)
 
 
 def _of_pair(sides: Sides, pair: centres.Pair, alone: CapFigures) -> CapFigures:

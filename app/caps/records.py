@@ -88,9 +88,11 @@ def shape_of_mark(mark: Mark) -> str:
 
 def prediction_record(prediction: Prediction, image: Image) -> CapRecord:
     """A prediction."""
+    rle = rle_of_outline(prediction.visible, height=image.height, width=image.width)
     return CapRecord(
         id=prediction.id,
-        rle=rle_of_outline(prediction.visible, height=image.height, width=image.width),
+        rle=rle,
+        area=area_of_rle(rle),
         score=prediction.score,
         centre=prediction.centre,
         diameter=diameter_of_shape(prediction.whole) if prediction.whole else None,

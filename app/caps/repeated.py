@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -38,6 +39,11 @@ class Marks:
     """Who edited each annotation last, by uid."""
     hands: Hands = UNKNOWN
 
+    @property
+    def annotator(self) -> str | None:
+        """Who edited most of these annotations; None where there are none."""
+        return min(Counter(self.editors.values()).items(), key=_most_first, default=(None, 0))[0]
+
     def class_of(self, cap: Annotation, record: CapRecord) -> CapClass:
         """What kind of mark a cap has, and whose."""
         return class_of_mark(record, cap.cap.mark, annotator=self.editors.get(cap.uid, IMPORT))
@@ -45,6 +51,11 @@ class Marks:
     def floor_of(self, cap: Annotation, record: CapRecord, image: Image) -> float | None:
         """CDR, percent, that a mark has by itself; None where that is not known."""
         return self.hands.floor(self.class_of(cap, record), floor_of_mark(cap, image))
+
+
+def _most_first(counted: tuple[str, int]) -> tuple[int, str]:
+    name, count = counted
+    return -count, name
 
 
 def marks_on(connection: Connection, image_id: int) -> Marks:

@@ -16,6 +16,7 @@ from msgspec import convert
 from fairyring.app.commands.files import about
 from fairyring.app.commands.progress import time_told
 from fairyring.app.commands.rows import AsJson, console_of_tables
+from fairyring.app.review.what_cdr_is import CDR
 from fairyring.model.errors import FairyringError, FileError
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def masks(
         _print_masks(figures)
 
 
-@commands.command()
+@commands.command(epilog=CDR)
 def centres(
     files: Annotated[
         list[Path],

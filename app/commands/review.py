@@ -40,8 +40,9 @@ def review(
 ) -> None:
     """Compare the caps that people marked with the latest predictions: CDR, its floor, and what was missed.
 
-    Images that nobody has worked on do not count; they are named. The floor is the CDR that the marks have by
-    themselves: from caps that were marked again, else from how many points they have and where these lie.
+    Images that nobody has worked on do not count; they are named. The floor comes from caps that were marked
+    again, else from how many points a mark has and where these lie. --report and --json also hold what
+    reviewers said, with reasons, who and when.
 
     Example: `fairyring review beds --run after --against before --report review.html`
     """

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Awaitable, Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -22,9 +23,12 @@ from fairyring.app.review.figures import review_of
 from fairyring.app.static_folder import STATIC
 from fairyring.storage.compared_caps import caps_of_image
 from fairyring.storage.comparisons import list_comparisons
+from fairyring.storage.errors import StoreError
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
+from fairyring.storage.records import Run
 from fairyring.storage.review_figures import shifts as find_shifts
+from fairyring.storage.runs import get_run
 
 REPORT = "report.html"
 OWN_LOOKS = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'"
@@ -35,10 +39,11 @@ Rows = tuple[Sequence[str], Sequence[Sequence[Any]]]
 
 @dataclass(frozen=True, kw_only=True)
 class _Asked:
-    """What is to be kept: of all images or of one, with or without unsure marks."""
+    """What is to be kept: of all images or of one, of which run, with or without unsure marks."""
 
     what: str
     image: int | None
+    run: int | None
     only_sure: bool
 
 
@@ -48,10 +53,10 @@ def reviews_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
     async def reviews(request: Request) -> Response:
         if name_of(request) is None:
             return PlainTextResponse("Open the page first and say your name.", status_code=401)
-        number = request.query_params.get("image", "")
         asked = _Asked(
             what=request.path_params["what"],
-            image=int(number) if number.isdecimal() and len(number) < 19 else None,
+            image=_number(request, "image"),
+            run=_number(request, "run"),
             only_sure=request.query_params.get("sure") == "1",
         )
         answer = await anyio.to_thread.run_sync(partial(_answer, project, asked))
@@ -60,22 +65,44 @@ def reviews_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
     return reviews
 
 
+def _number(request: Request, name: str) -> int | None:
+    said = request.query_params.get(name, "")
+    return int(said) if said.isdecimal() and len(said) < 19 else None
+
+
 def _answer(project: Project, asked: _Asked) -> Response | None:
     if asked.what == REPORT:
-        among = None if asked.image is None else {asked.image}
-        page = page_of(project, review_of(project, among=among, only_sure=asked.only_sure))
-        return HTMLResponse(page, headers={"Content-Security-Policy": OWN_LOOKS})
+        return _report(project, asked)
     name, _, kind = asked.what.partition(".")
     if name not in PLOTS or kind not in ("svg", "csv"):
         return None
     with project.read() as connection:
-        run = latest_run(connection)
+        run = _run(connection, asked)
         if run is None:
             return None
         plot, rows = PLOTS[name](connection, run.id, asked)
     if kind == "csv":
         return _kept(_csv(rows), "text/csv; charset=utf-8", asked.what)
     return _kept(_alone(plot), "image/svg+xml", asked.what)
+
+
+def _report(project: Project, asked: _Asked) -> Response | None:
+    with project.read() as connection:
+        run = None if asked.run is None else _run(connection, asked)
+    if run is None and asked.run is not None:
+        return None
+    among = None if asked.image is None else {asked.image}
+    page = page_of(project, review_of(project, run=run, among=among, only_sure=asked.only_sure))
+    return HTMLResponse(page, headers={"Content-Security-Policy": OWN_LOOKS})
+
+
+def _run(connection: Connection, asked: _Asked) -> Run | None:
+    """The run that was asked for, else the latest; None where there is none."""
+    if asked.run is None:
+        return latest_run(connection)
+    with suppress(StoreError):
+        return get_run(connection, asked.run)
+    return None
 
 
 def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
@@ -88,6 +115,7 @@ def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Mark
         for name, each in figures
         if each.cdr_mean is not None
     ]
+    bars.sort(key=lambda bar: bar.cdr, reverse=True)
     columns = ("cdr_mean", "floor_mean", "cdr_worst", "dx", "dy", "measured", "matched", "missed", "extra")
     rows = [(name, *(getattr(each, column) for column in columns)) for name, each in figures]
     return cdr_bars(bars, what="Mean CDR by image"), (("image", *columns), rows)
@@ -95,15 +123,12 @@ def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Mark
 
 def _of_caps(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
     caps = [] if asked.image is None else caps_of_image(connection, run_id, asked.image)
-    shown = [each for each in caps if not (asked.only_sure and (each.unsure or each.doubtful))]
-    measured = [each for each in shown if each.cdr is not None]
-    bars = [
-        Bar(name=f"cap {nth}", cdr=each.cdr or 0.0, floor=each.floor)
-        for nth, each in enumerate(measured, start=1)
-    ]
+    numbered = [(nth, each) for nth, each in enumerate(caps, start=1) if each.cdr is not None]
+    measured = [(n, each) for n, each in numbered if not (asked.only_sure and (each.unsure or each.doubtful))]
+    bars = [Bar(name=f"cap {nth}", cdr=each.cdr or 0.0, floor=each.floor) for nth, each in measured]
     columns = ("annotation", "cdr", "floor", "dx", "dy", "iou", "annotator", "size", "shape", "visibility")
-    rows = [[getattr(each, column) for column in columns] for each in measured]
-    return cdr_bars(bars, what="CDR of each cap"), (columns, rows)
+    rows = [[nth, *(getattr(each, column) for column in columns)] for nth, each in measured]
+    return cdr_bars(bars, what="CDR of each cap"), (("cap", *columns), rows)
 
 
 def _of_shifts(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:

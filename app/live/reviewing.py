@@ -21,6 +21,7 @@ from fairyring.storage.runs import predictions_by
 async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
     """Has photos compared with this run from now on (None: with the one on screen), this one at once."""
     session.run_on_photo = run
+    session.refresh("review")
     if session.image is not None:
         await tell_differences(workspace, session, session.image.id)
 

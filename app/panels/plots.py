@@ -54,8 +54,8 @@ def build(workspace: Workspace, session: Session) -> dict[str, Redraw]:
 
     async def redraw_caps() -> None:
         image, only_sure = session.image.id if session.image else None, session.only_sure
-        caps = await workspace.read(partial(_find_caps, image=image, only_sure=only_sure))
-        of_caps.draw(plot_of_caps(caps), "caps", only_sure=only_sure, image=image)
+        caps = await workspace.read(partial(_find_caps, image=image))
+        of_caps.draw(plot_of_caps(caps, only_sure=only_sure), "caps", only_sure=only_sure, image=image)
 
     return {"plots": redraw, "cap_plot": redraw_caps}
 
@@ -133,12 +133,9 @@ def _find(connection: Connection, *, only_sure: bool) -> tuple[list[ComparisonRo
     return measured, shifts(connection, run.id, only_sure=only_sure, most=MOST_SHIFTS)
 
 
-def _find_caps(connection: Connection, *, image: int | None, only_sure: bool) -> list[CapFigures]:
+def _find_caps(connection: Connection, *, image: int | None) -> list[CapFigures]:
     run = latest_run(connection)
-    if run is None or image is None:
-        return []
-    caps = [each for each in caps_of_image(connection, run.id, image) if each.cdr is not None]
-    return [each for each in caps if not (only_sure and (each.unsure or each.doubtful))]
+    return [] if run is None or image is None else caps_of_image(connection, run.id, image)
 
 
 def _cdr_series(what: str, *, worst: bool) -> tuple[uplot.Series, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fairyring.model.evaluate.spread import ellipse_of_spread
+from fairyring.model.evaluate.spread import ellipse_of_spread, reach_of
 from fairyring.storage.compared_caps import CapFigures
 from fairyring.storage.comparisons import ComparisonRow
 from fairyring.storage.review_figures import Shift
@@ -57,9 +57,20 @@ def plot_of_images(rows: Sequence[ComparisonRow]) -> Plot:
     return _by_number(points, means, floors, worst)
 
 
-def plot_of_caps(caps: Sequence[CapFigures]) -> Plot:
-    """CDR of each measured cap of an image with the floor of its mark, as the paper's Figure 19 has it."""
-    cdr, floors = _column(each.cdr for each in caps), _column(each.floor for each in caps)
+def plot_of_caps(caps: Sequence[CapFigures], *, only_sure: bool = False) -> Plot:
+    """CDR of each measured cap of an image with the floor of its mark, as the paper's Figure 19 has it.
+
+    Args:
+        caps: all of an image, in the order in which they were made, by which they are numbered.
+        only_sure: leaves out doubtful caps and marks that hardly determine a centre.
+    """
+    numbered = [
+        (nth, each)
+        for nth, each in enumerate(caps, start=1)
+        if each.cdr is not None and not (only_sure and (each.unsure or each.doubtful))
+    ]
+    measured = [each for _, each in numbered]
+    cdr, floors = _column(each.cdr for each in measured), _column(each.floor for each in measured)
     points = [
         Point(
             x=nth,
@@ -68,7 +79,7 @@ def plot_of_caps(caps: Sequence[CapFigures]) -> Plot:
             annotation=each.annotation,
             words=f"cap {nth}: CDR {each.cdr:.3f} %{_floor(each.floor)}",
         )
-        for nth, each in enumerate(caps, start=1)
+        for nth, each in numbered
     ]
     return _by_number(points, cdr, floors)
 
@@ -78,7 +89,7 @@ def plot_of_shifts(found: Sequence[Shift]) -> Plot:
     if len(found) < 3:
         return Plot()
     moves = np.array([(each.dx, each.dy) for each in found])
-    reach = max(0.1, 1.1 * float(np.quantile(np.abs(moves), 0.98)))
+    reach = reach_of(moves)
     inside = [each for each in found if abs(each.dx) <= reach and abs(each.dy) <= reach]
     upper, lower = ellipse_of_spread(moves)
     dots = np.array([(each.dx, each.dy) for each in inside]).reshape(-1, 2)
@@ -111,8 +122,9 @@ def _by_number(points: Sequence[Point], *columns: NDArray[np.float64]) -> Plot:
     if not points:
         return Plot()
     top = max(float(np.nanmax(np.concatenate([np.zeros(1), *columns]))), 0.01)
-    numbers = np.arange(1, len(points) + 1, dtype=np.float64)
-    return Plot(columns=(numbers, *columns), points=points, x=(0.5, len(points) + 0.5), y=(0.0, 1.05 * top))
+    numbers = np.array([each.x for each in points], np.float64)
+    ends = (float(numbers[0]) - 0.5, float(numbers[-1]) + 0.5)
+    return Plot(columns=(numbers, *columns), points=points, x=ends, y=(0.0, 1.05 * top))
 
 
 def _column(values: Iterable[float | None]) -> NDArray[np.float64]:

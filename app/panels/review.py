@@ -16,6 +16,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import EMPTY, Markup, element
 from fairyring.app.panels.status import run_badge
+from fairyring.app.review.what_cdr_is import ABOUT
 from fairyring.storage.compared_caps import Kind
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
 from fairyring.storage.predictions import latest_run
@@ -25,13 +26,6 @@ from fairyring.storage.review_figures import By, Totals, totals, totals_by, unto
 PAGE = 10
 FIRST = -1.0
 """Place in the page before all that has no other."""
-ABOUT = (
-    "CDR is how far the predicted centre of a cap lies from the marked one, along x as a share of the "
-    "image's width plus along y as a share of its height (Eq. 10 of the paper). It shrinks as the image "
-    "grows, so look at the shift in pixels, too. Hold it against its floor, the CDR that people's marks have "
-    "by themselves, as no hand places a point exactly: predictions near it cannot be told to be wrong. "
-    "The paper's method reached 0.30 % on its four photos. Caps that were missed or are extra are in no mean."
-)
 ORDERS: dict[str, tuple[ComparisonSort, bool]] = {
     "worst cap first": ("cdr_worst", True),
     "highest mean first": ("cdr_mean", True),
@@ -59,6 +53,8 @@ class Wanted:
     order: str = "worst cap first"
     by: By | None = None
     only_sure: bool = False
+    run: Run | None = None
+    """Whom reports are to be held against; None for the latest run of each image."""
     page: int = 0
 
 
@@ -109,7 +105,13 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         workspace.start_job(session, "Comparison with the predictions", compare_work(workspace.project))
 
     async def redraw() -> None:
-        wanted = Wanted(order=order.value, by=GROUPS[by.value], only_sure=session.only_sure, page=page[0])
+        wanted = Wanted(
+            order=order.value,
+            by=GROUPS[by.value],
+            only_sure=session.only_sure,
+            run=session.run_on_photo,
+            page=page[0],
+        )
         review = await workspace.read(partial(find_review, wanted=wanted))
         page[0] = review.first // PAGE
         figures.content = review_figures(review).html
@@ -197,11 +199,12 @@ def review_page(review: Review, current: int | None, wanted: Wanted = USUAL) -> 
 
 
 def _reports(current: int | None, wanted: Wanted) -> Markup:
-    """Links to the review as a page that can be printed."""
-    links = {"Report of all images": review_address("report.html", only_sure=wanted.only_sure)}
+    """Links to the review as a page that can be printed, against the run that was chosen for the photo."""
+    of = partial(review_address, "report.html", only_sure=wanted.only_sure, run=wanted.run and wanted.run.id)
+    against = f" against {wanted.run.name}" if wanted.run else ""
+    links = {f"Report of all images{against}": of()}
     if current is not None:
-        of_one = review_address("report.html", only_sure=wanted.only_sure, image=current)
-        links["Report of this image"] = of_one
+        links[f"Report of this image{against}"] = of(image=current)
     return element(
         "div",
         *(element("a", words, href=to, target="_blank") for words, to in links.items()),

@@ -40,8 +40,12 @@ def open_demand(verdicts: Sequence[GivenVerdict]) -> str | None:
     return sentence_of(said[-1]) if said and said[-1].says in ("sent_back", "rejected") else None
 
 
+def moment(verdict: GivenVerdict) -> str:
+    """When it was said, to the minute."""
+    return f"{verdict.made_at[:16].replace('T', ' ')} UTC"
+
+
 def _row(verdict: GivenVerdict) -> Markup:
-    when = f"{verdict.made_at[:16].replace('T', ' ')} UTC"
     lead = None
     if verdict.annotation is not None:
         lead = element(
@@ -54,6 +58,6 @@ def _row(verdict: GivenVerdict) -> Markup:
     return element(
         "li",
         element("div", sentence_of(verdict)),
-        element("div", element("span", when, class_="fr-quiet"), lead, class_="fr-line"),
+        element("div", element("span", moment(verdict), class_="fr-quiet"), lead, class_="fr-line"),
         data_fairyring_verdict=verdict.says,
     )

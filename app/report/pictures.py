@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from fairyring.app.caps.records import prediction_record, truth_record
 from fairyring.app.review.figures import ReviewedCap
+from fairyring.app.review.reviewed import predictions_of
 from fairyring.model.evaluate.centres import compare
 from fairyring.model.geometry.boxes import boxes_of_outlines
 from fairyring.model.geometry.shapes import Centre, Outline, points_of_part, polygon_of_shape
@@ -19,12 +21,11 @@ from fairyring.storage.contents import (
     load_annotation,
     load_annotations,
     load_prediction,
-    load_predictions,
 )
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
 from fairyring.storage.project import Project
-from fairyring.storage.records import Annotation, Prediction
+from fairyring.storage.records import Annotation, Prediction, Run
 
 SIDE = 240
 """Height and width of a close-up, pixels."""
@@ -61,16 +62,23 @@ def close_ups(project: Project, caps: list[ReviewedCap]) -> list[str]:
     return addresses
 
 
-def side_by_side(project: Project, image_id: int) -> list[str]:
+def side_by_side(project: Project, image_id: int, *, run: Run | None = None) -> list[str]:
     """A whole photo three times, as in Figures 17 and 18 of the paper: marked contours, predicted ones, both.
 
-    Centres are drawn, too, and on the last the lines between those of one cap. Empty where the photo is gone.
+    Centres are drawn, too, on the first the numbers of the caps, and on the last the lines between the two
+    centres of one cap. Empty where the photo is gone.
+
+    Args:
+        project: whose image.
+        image_id: which one.
+        run: whose predictions; None for the latest ones.
     """
     photo = _photo(project, image_id)
     if photo is None:
         return []
     with project.read() as connection:
-        said, guessed = load_annotations(connection, image_id), load_predictions(connection, image_id)
+        said = load_annotations(connection, image_id)
+        guessed = predictions_of(connection, image_id, run=run)
         image = get_image(connection, image_id)
     pairs = compare(
         [truth_record(each, image) for each in said],
@@ -87,12 +95,25 @@ def side_by_side(project: Project, image_id: int) -> list[str]:
         picture = small.copy()
         for each in (cap for caps in shown for cap in caps):
             _draw_centred(picture, each, view)
+        if shown == (said,):
+            _number(picture, said, view)
         for pair in pairs if len(shown) == 2 else ():
             marked, predicted = said[pair.truth].centre, guessed[pair.prediction].centre
             if marked is not None and predicted is not None:
                 _line(picture, marked, predicted, view)
         addresses.append(_address(picture))
     return addresses
+
+
+def _number(picture: Picture, caps: Sequence[Annotation], view: _View) -> None:
+    """Writes beside each centre, light on dark, the number that its cap has in the plots."""
+    for nth, cap in enumerate(caps, start=1):
+        if cap.centre is None:
+            continue
+        (at,) = np.rint((np.array([cap.centre]) - (view.x, view.y)) * view.scale + (5, -5)).astype(int)
+        for colour, thick in (((0, 0, 0), 3), ((255, 255, 255), 1)):
+            place = int(at[0]), int(at[1])
+            cv2.putText(picture, str(nth), place, cv2.FONT_HERSHEY_SIMPLEX, 0.55, colour, thick, cv2.LINE_AA)
 
 
 def _draw_centred(picture: Picture, cap: Annotation | Prediction, view: _View) -> None:

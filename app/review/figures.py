@@ -16,9 +16,11 @@ from msgspec import structs, to_builtins
 from fairyring.app.caps.filling_in import fill_in
 from fairyring.app.caps.records import is_unsure
 from fairyring.app.caps.repeated import floor_figures, repeated_marks
+from fairyring.app.review.groups import NOT_KNOWN, TITLES, in_order
 from fairyring.app.review.reviewed import ReviewedImage, reviewed_images, worked_on
-from fairyring.model.evaluate.cap_rows import Measured, measured_caps
-from fairyring.model.evaluate.centre_figures import figures_of_caps, grouped
+from fairyring.app.review.said import Said, entry_of, said_of
+from fairyring.model.evaluate.cap_rows import Measured, measured_caps, visibility_of
+from fairyring.model.evaluate.centre_figures import figures_of_caps
 from fairyring.model.evaluate.centres import compare, summarise
 from fairyring.model.evaluate.pages import Page
 from fairyring.model.evaluate.repeated_marks import RepeatedMark
@@ -37,7 +39,9 @@ class ReviewedCap:
     measured: Measured
     image: int
     annotator: str | None = None
-    """Who edited it last; None of an extra prediction."""
+    """Who edited it last; of an extra prediction who edited most caps of its image."""
+    shape: str | None = None
+    """Regular where it is marked by a circle, else irregular; None where nothing is marked."""
     floor: float | None = None
     """CDR that its mark has by itself, percent; None where that is not known, or nothing is marked."""
     is_unsure: bool = False
@@ -47,6 +51,11 @@ class ReviewedCap:
     def key(self) -> tuple[int, int | None]:
         """Which cap it is among those of a review: the place of its image, and its own there."""
         return self.measured.page, self.measured.truth
+
+    @property
+    def name(self) -> str:
+        """What it is called on its image: caps are numbered in the order in which they were made."""
+        return "extra" if self.measured.truth is None else f"cap {self.measured.truth + 1}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -62,6 +71,10 @@ class Review:
     caps: list[ReviewedCap]
     untouched: list[str]
     """File names of the images that nobody has worked on."""
+    of_some: bool
+    """Whether only some images were asked for."""
+    said: list[Said]
+    """What reviewers said of all these images and their caps, image by image, the first one first."""
     left_out: int
     """How many caps were left out as doubtful or unsure."""
     repeats: list[RepeatedMark]
@@ -96,7 +109,9 @@ def review_of(
     left_out = 0
     fill_in(project, progress=progress)
     with project.read() as connection:
-        numbers, untouched = worked_on(connection, images=images, among=among)
+        touched, untouched = worked_on(connection, images=images, among=among)
+        numbers = [image.id for image in touched]
+        said = said_of(connection, [*touched, *untouched])
         repeats = repeated_marks(connection)
         for done, seen in enumerate(reviewed_images(connection, numbers, run=run)):
             progress(done, len(numbers), "Comparing caps with predictions")
@@ -111,7 +126,9 @@ def review_of(
         images=found_images,
         pages=pages,
         caps=caps,
-        untouched=untouched,
+        untouched=[image.file_name for image in untouched],
+        of_some=images != "*" or among is not None,
+        said=said,
         left_out=left_out,
         repeats=repeats,
     )
@@ -119,25 +136,40 @@ def review_of(
 
 def figures_of(review: Review) -> dict[str, Any]:
     """What ``fairyring review --json`` prints: figures of all caps, of groups, images and annotators."""
-    reviewed = {cap.measured: cap for cap in review.caps}
-    of_image, of_annotator = defaultdict(list), defaultdict(list)
+    of_image = defaultdict(list)
     for cap in review.caps:
         of_image[cap.measured.page].append(cap)
-        if cap.annotator is not None:
-            of_annotator[cap.annotator].append(cap)
-    groups = {
-        kind: {value: _figures([reviewed[each] for each in some]) for value, some in values.items()}
-        for kind, values in grouped(list(reviewed), review.pages).items()
-    }
-    groups["annotator"] = {name: _figures(caps) for name, caps in sorted(of_annotator.items())}
     return _figures(review.caps) | {
         "images": [_image_figures(image, of_image[place]) for place, image in enumerate(review.images)],
-        "groups": groups,
+        "groups": _groups(review),
         "worst": [_row(cap) for cap in worst_caps(review.caps)],
+        "verdicts": [entry_of(each) for each in review.said],
         "untouched": review.untouched,
         "left_out": review.left_out,
         "marked_again": floor_figures(review.repeats),
     }
+
+
+def _groups(review: Review) -> dict[str, dict[str, Any]]:
+    """Figures by kind and value. Where no value of a kind is known there are no groups of it."""
+    caps: dict[str, dict[str, list[ReviewedCap]]] = {kind: defaultdict(list) for kind in TITLES}
+    for cap in review.caps:
+        page, row = review.pages[cap.measured.page], cap.measured.row
+        of_cap = {
+            "size": row.size,
+            "visibility": visibility_of(row),
+            "shape": cap.shape,
+            "light": page.light,
+            "form": page.form,
+            "annotator": cap.annotator,
+        }
+        for kind, value in of_cap.items():
+            caps[kind][value or NOT_KNOWN].append(cap)
+    figures = {
+        kind: {value: _figures(some) for value, some in values.items()} if {*values} - {NOT_KNOWN} else {}
+        for kind, values in caps.items()
+    }
+    return {kind: in_order(kind, values, cdr=_mean_cdr) for kind, values in figures.items()}
 
 
 def worst_caps(caps: Sequence[ReviewedCap], *, most: int = MOST_WORST) -> list[ReviewedCap]:
@@ -159,13 +191,16 @@ def _caps_of(seen: ReviewedImage, *, place: int) -> list[ReviewedCap]:
 
 def _reviewed(seen: ReviewedImage, measured: Measured) -> ReviewedCap:
     if measured.truth is None:
-        return ReviewedCap(measured=measured, image=seen.image.id)
+        return ReviewedCap(measured=measured, image=seen.image.id, annotator=seen.marks.annotator)
     annotation, image = seen.annotations[measured.truth], seen.image
+    record = seen.page.truths[measured.truth]
+    of = seen.marks.class_of(annotation, record)
     return ReviewedCap(
         measured=measured,
         image=image.id,
-        annotator=seen.marks.editors[annotation.uid],
-        floor=seen.marks.floor_of(annotation, seen.page.truths[measured.truth], image),
+        annotator=of.annotator,
+        shape=of.shape,
+        floor=seen.marks.floor_of(annotation, record, image),
         is_unsure=is_unsure(annotation),
         is_doubtful=annotation.cap.doubtful,
     )
@@ -186,6 +221,10 @@ def _counts(caps: Sequence[ReviewedCap]) -> dict[str, Any]:
         "unsure_marks": sum(cap.is_unsure for cap in caps),
         "floor": {"cdr_mean": float(np.mean(floors)) if floors else None, "count": len(floors)},
     }
+
+
+def _mean_cdr(figures: dict[str, Any]) -> float | None:
+    return figures["cdr"]["mean"]
 
 
 def _image_figures(image: Image, caps: Sequence[ReviewedCap]) -> dict[str, Any]:

@@ -24,7 +24,7 @@ class ReviewedImage:
     image: Image
     annotations: list[Annotation]
     predictions: list[Prediction]
-    """Of the latest run that saw the image."""
+    """Of the run that was asked for, else the latest that saw the image."""
     page: Page
     marks: Marks
     """Whose they are, and how far off these people's marks are."""
@@ -32,24 +32,24 @@ class ReviewedImage:
 
 def worked_on(
     connection: Connection, *, images: str = "*", among: Container[int] | None = None
-) -> tuple[list[int], list[str]]:
-    """The numbers of the images that somebody worked on, by name, and the file names of all others.
+) -> tuple[list[Image], list[Image]]:
+    """The images that somebody worked on, by name, and all others.
 
     Somebody worked on an image that has a cap, or of which somebody said that it is done. On any other one
     every prediction would count as extra, though nobody has looked. ``images`` and ``among`` are as for
     ``figures.review_of``.
     """
     with_caps = set(list_ids(connection, ImageFilter(annotated=True)))
-    numbers, others = [], []
+    touched, others = [], []
     for number in list_ids(connection, ImageFilter()):
         image = get_image(connection, number)
         if not fnmatchcase(image.file_name, images) or (among is not None and number not in among):
             continue
         if number in with_caps or image.status != "new":
-            numbers.append(number)
+            touched.append(image)
         else:
-            others.append(image.file_name)
-    return numbers, others
+            others.append(image)
+    return touched, others
 
 
 def reviewed_images(
@@ -60,11 +60,7 @@ def reviewed_images(
     for number in numbers:
         image = get_image(connection, number)
         annotations = load_annotations(connection, number)
-        predictions = (
-            load_predictions(connection, number)
-            if run is None
-            else predictions_by(connection, run.id, number)
-        )
+        predictions = predictions_of(connection, number, run=run)
         page = Page(
             file_name=image.file_name,
             width=image.width,
@@ -76,3 +72,10 @@ def reviewed_images(
         )
         marks = Marks(editors=load_editors(connection, number), hands=hands)
         yield ReviewedImage(image, annotations, predictions, page, marks)
+
+
+def predictions_of(connection: Connection, image_id: int, *, run: Run | None) -> list[Prediction]:
+    """What a run said of an image; for None the latest that saw it."""
+    if run is None:
+        return load_predictions(connection, image_id)
+    return predictions_by(connection, run.id, image_id)

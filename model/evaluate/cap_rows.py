@@ -123,6 +123,7 @@ def _extra_row(page: Page, guess: CapRecord) -> CapRow:
         outcome="extra",
         prediction=guess.id,
         diameter=guess.diameter,
+        size=size_of_cap(guess),
         shape=guess.shape,
         score=guess.score,
     )

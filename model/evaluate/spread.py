@@ -8,6 +8,16 @@ from numpy.typing import NDArray
 OF_95 = 2.4477
 """Standard deviations from the mean that 95 of 100 of a normal distribution in two dimensions stay within."""
 
+MANY = 50
+"""From so many points on some may lie beyond the edges of a plot, so that one of them does not shrink all."""
+
+
+def reach_of(moves: NDArray[np.float64]) -> float:
+    """How far a plot of these errors (n, 2) reaches from its middle, in their unit."""
+    sizes = np.abs(moves)
+    furthest = np.quantile(sizes, 0.98) if len(moves) >= MANY else sizes.max()
+    return 1.1 * max(float(furthest), 0.1)
+
 
 def axes_of_spread(moves: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The semi-axes (2,) of the ellipse that holds 95 of 100, the shorter first, and their directions (2, 2).

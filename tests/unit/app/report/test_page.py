@@ -7,20 +7,26 @@ import csv
 import io
 import json
 import re
+from html import escape
 from html.parser import HTMLParser
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from sqlalchemy import Connection
 from typer.testing import CliRunner
 
 from fairyring.app.cli import app
 from fairyring.app.report.page import page_of
-from fairyring.app.report.pictures import MARKED, PREDICTED, close_ups
-from fairyring.app.review.figures import review_of, worst_caps
+from fairyring.app.report.pictures import MARKED, PREDICTED, close_ups, side_by_side
+from fairyring.app.review.figures import figures_of, review_of, worst_caps
+from fairyring.app.review.unmeasured import why_unmeasured
 from fairyring.model.errors import FairyringError
+from fairyring.storage.journal import commit
+from fairyring.storage.predictions import add_predictions, add_run, latest_run
 from fairyring.storage.project import Project
+from fairyring.storage.records import Verdict
 from tests.support.two_marked import mark_both
 
 
@@ -68,7 +74,7 @@ def test_the_page_loads_nothing_and_no_name_is_read_as_html(project: Project) ->
 def test_the_tables_to_download_hold_every_measured_cap(project: Project) -> None:
     mark_both(project)
     files = [address for address in read_page(project).found if address.startswith("data:text/csv")]
-    images, caps = (rows_of(address) for address in files)
+    images, caps, _ = (rows_of(address) for address in files)
     assert [row["image"] for row in images] == ["bed_1.jpg"]
     assert {row["cap"]: round(float(row["dx"]), 3) for row in caps} == {"left": 1.6, "right": 0.0}
 
@@ -93,8 +99,82 @@ def test_a_photo_that_is_gone_leaves_its_caps_in_the_page(project: Project) -> N
 
 def test_a_project_without_marks_has_a_page_that_says_so(project: Project) -> None:
     html = page_of(project, review_of(project))
-    assert "nothing to plot" in html
+    assert "nothing to measure" in html
     assert re.search(r"3 images that nobody has worked on", html)
+
+
+def test_a_report_of_one_image_speaks_of_that_image(project: Project) -> None:
+    mark_both(project)
+    html = page_of(project, review_of(project, images="bed_1.jpg"))
+    assert "<h1>Review of bed_1.jpg</h1>" in html
+    assert "Mean CDR by image" not in html
+    assert "of all" not in html
+    assert "<h1>Review of 3 images of " in page_of(project, review_of(project, images="bed_*"))
+    assert f"<h1>Review of {project.name}</h1>" in page_of(project, review_of(project))
+
+
+def test_of_an_image_that_nobody_has_worked_on_the_report_says_so(project: Project) -> None:
+    html = page_of(project, review_of(project, images="bed_2.jpg"))
+    assert "Nobody has worked on bed_2.jpg" in html
+
+
+def test_bars_and_close_ups_name_their_caps_by_the_same_numbers(project: Project) -> None:
+    mark_both(project)
+    html = page_of(project, review_of(project))
+    assert re.findall(r'class="name">([^<]+)<', html) == ["cap 1", "cap 2"]
+    assert "bed_1.jpg, cap 1: CDR 1.500 %" in html
+
+
+def test_the_report_tells_reasons_and_comments_with_who_and_when(project: Project) -> None:
+    mark_both(project)
+    for said in (
+        Verdict(id="1", image=1, says="sent_back", words="Look <again>."),
+        Verdict(id="2", image=1, annotation="right", says="comment", words="Is it one?"),
+    ):
+        commit(project, [], verdicts=[said], user="Rev")
+    review = review_of(project)
+    html = page_of(project, review)
+    rows = re.findall(r"<td>bed_1.jpg</td><td>([^<]*)</td><td>([^<]*)</td><td>([^<]*)</td><td>Rev</td>", html)
+    assert rows == [
+        ("the image", "sent back", "Look &lt;again&gt;."),
+        ("cap 2", "commented", "Is it one?"),
+    ]
+    assert len(re.findall(r"<td>\d{4}-\d\d-\d\d \d\d:\d\d UTC</td>", html)) == 2
+    entries = figures_of(review)["verdicts"]
+    assert [(each["by"], each["says"], each.get("annotation")) for each in entries] == [
+        ("Rev", "sent_back", None),
+        ("Rev", "comment", "right"),
+    ]
+
+
+def test_caps_that_are_marked_but_match_nothing_are_told_from_caps_that_nobody_marked(
+    project: Project,
+) -> None:
+    counts = {"marked": 2, "matched": 0, "missed": 2, "extra": 3}
+    assert "None of 2 marked caps matches one of 3 predictions" in why_unmeasured(counts)
+    assert "Nothing is predicted" in why_unmeasured(counts | {"extra": 0})
+    assert "No cap is marked" in why_unmeasured(counts | {"marked": 0})
+    assert "what matches has no mark" in why_unmeasured(counts | {"matched": 1, "marked": 1})
+    assert "No cap is labelled" in page_of(project, review_of(project))
+
+
+def test_the_photo_shows_what_the_chosen_run_said_and_not_the_latest(project: Project) -> None:
+    mark_both(project)
+    with project.read() as connection:
+        first = latest_run(connection)
+    assert first is not None
+    before = side_by_side(project, 1, run=first)
+
+    def predict_nothing(connection: Connection) -> None:
+        run = add_run(connection, name="later", kind="network")
+        add_predictions(connection, run_id=run.id, image_id=1, predictions=[])
+
+    project.write(predict_nothing)
+    assert side_by_side(project, 1, run=first) == before
+    assert side_by_side(project, 1)[1] != before[1]
+    html = page_of(project, review_of(project, run=first))
+    assert before[1] in html
+    assert f"Held against the predictions of {escape(first.name)}." in html
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fairyring.model.evaluate.spread import axes_of_spread, ellipse_of_spread
+from fairyring.model.evaluate.spread import axes_of_spread, ellipse_of_spread, reach_of
 
 
 def test_it_holds_95_of_100_of_what_scatters_normally() -> None:
@@ -26,3 +26,10 @@ def test_its_two_halves_lie_on_it() -> None:
 def test_shifts_of_one_kind_alone_have_a_flat_one() -> None:
     upper, lower = ellipse_of_spread(np.array([[1.0, 2.0], [1.0, 2.0], [1.0, 2.0]]))
     assert upper == pytest.approx(lower)
+
+
+def test_a_plot_reaches_all_of_a_few_points_and_most_of_many() -> None:
+    few = np.array([(1.0, 0.0), (0.0, -8.0), (0.5, 0.5)])
+    assert reach_of(few) == pytest.approx(8.8)
+    many = np.vstack([np.ones((99, 2)), [(100.0, 0.0)]])
+    assert reach_of(many) == pytest.approx(1.1)

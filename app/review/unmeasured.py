@@ -1,0 +1,27 @@
+"""Why there is no centre to measure: in the words of who looks for one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from fairyring.model.evaluate.matching import LEAST_IOU
+
+
+def why_unmeasured(counts: Mapping[str, int]) -> str:
+    """Says why no cap was measured, from how many are ``marked``, ``matched``, ``missed`` and ``extra``."""
+    caps, predictions = counts["matched"] + counts["missed"], counts["matched"] + counts["extra"]
+    if not caps:
+        return "No cap is labelled, so there is nothing to measure."
+    if not counts["marked"]:
+        return "No cap is marked, so there is no centre to measure from."
+    if not predictions:
+        return "Nothing is predicted, so there is nothing to measure."
+    if not counts["matched"]:
+        return (
+            f"None of {counts['marked']} marked caps matches one of {predictions} predictions "
+            f"(IoU of {LEAST_IOU:g} or more), so there is nothing to measure."
+        )
+    return (
+        f"None of {counts['marked']} marked caps matches a prediction with a centre "
+        f"(IoU of {LEAST_IOU:g} or more); what matches has no mark."
+    )

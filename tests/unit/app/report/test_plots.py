@@ -1,0 +1,43 @@
+"""Bars with their names below them, and round numbers at the axis."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+import pytest
+
+from fairyring.app.report.plots import MOST_BARS, Bar, cdr_bars, round_numbers
+
+
+def bars(names: list[str]) -> str:
+    return cdr_bars([Bar(name=name, cdr=0.4, floor=0.2) for name in names], what="CDR").html
+
+
+@pytest.mark.parametrize(
+    ("top", "numbers"),
+    [(1.0, [0, 0.2, 0.4, 0.6, 0.8, 1.0]), (0.33, [0, 0.1, 0.2, 0.3]), (7.2, [0, 2, 4, 6]), (12, [0, 5, 10])],
+)
+def test_an_axis_has_round_numbers(top: float, numbers: list[float]) -> None:
+    assert round_numbers(top, most=5) == numbers
+
+
+@pytest.mark.parametrize("count", [1, 5, MOST_BARS])
+def test_every_bar_has_its_name_and_none_lies_on_the_next(count: int) -> None:
+    names = [f"a_rather_long_name_{nth:03}.jpg" for nth in range(count)]
+    html = bars(names)
+    assert re.findall(r">([^<]+)</text>", html)[-count:] == names
+    places = [float(x) for x in re.findall(r'<text x="([\d.]+)"[^>]*class="name', html)]
+    # Upright letters are as wide as they are high.
+    assert all(after - before > 10.3 for before, after in pairwise(places))
+
+
+def test_short_names_lie_and_long_ones_stand_and_lose_their_middle() -> None:
+    assert "rotate" not in bars(["cap 1", "cap 2"])
+    html = bars(["x" * 30 + "first.jpg", "y" * 40])
+    assert html.count("rotate(-90") == 2
+    assert "…xxxxxfirst.jpg" in html
+
+
+def test_of_more_bars_than_have_room_the_caption_says_how_many_there_are() -> None:
+    assert f"The first {MOST_BARS} of {MOST_BARS + 1}." in bars(["bar"] * (MOST_BARS + 1))
