@@ -358,6 +358,8 @@ class Notice(FromServer, frozen=True, tag="notice"):
 
     text: str
     level: Literal["info", "warning", "error"] = "info"
+    undo: int | None = None
+    """The image whose last change of status a button beside the sentence takes back."""
 
 
 Outgoing = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msgspec import Struct
-from sqlalchemy import Connection, and_, func, select
+from sqlalchemy import ColumnElement, Connection, and_, func, or_, select
 
 from fairyring.storage.db.schema import change_set, comparison, edit, image, prediction, status_change
 from fairyring.storage.records import IMPORT
@@ -43,19 +43,13 @@ def candidates(
         .group_by(prediction.c.image, prediction.c.run)
         .subquery()
     )
-    worked_on = and_(image.c.status == "new", image.c.caps > 0)
-    waiting = image.c.status == "annotated"
     statement = (
         select(image.c.id, image.c.file_name, image.c.version.label("now"), doubts.c.doubt, comparison)
         .outerjoin(comparison, and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run))
         .outerjoin(doubts, and_(doubts.c.image == image.c.id, doubts.c.run == image.c.run))
-        .where(waiting | worked_on if unfinished else waiting)
+        .where(_condition(annotator, unfinished=unfinished))
         .order_by(image.c.sort_name, image.c.id)
     )
-    if annotator is not None:
-        statement = statement.where(
-            image.c.id.in_(select(edit.c.image).where(edit.c.user == annotator).distinct())
-        )
     reopened = _reopened(connection)
     return [
         Candidate(
@@ -71,6 +65,28 @@ def candidates(
         )
         for row in connection.execute(statement)
     ]
+
+
+def count_candidates(
+    connection: Connection,
+    *,
+    annotator: str | None = None,
+    unfinished: bool = False,
+    reopened: bool = False,
+) -> int:
+    """How many of them there are; with ``reopened`` those alone that were edited since they were approved."""
+    asked = select(image.c.id).where(_condition(annotator, unfinished=unfinished))
+    found = set(connection.execute(asked).scalars())
+    return len(found & _reopened(connection) if reopened else found)
+
+
+def _condition(annotator: str | None, *, unfinished: bool) -> ColumnElement[bool]:
+    worked_on = and_(image.c.status == "new", image.c.caps > 0)
+    waiting = image.c.status == "annotated"
+    condition = or_(waiting, worked_on) if unfinished else waiting
+    if annotator is None:
+        return condition
+    return and_(condition, image.c.id.in_(select(edit.c.image).where(edit.c.user == annotator).distinct()))
 
 
 def count_waiting(connection: Connection) -> int:

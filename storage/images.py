@@ -11,9 +11,9 @@ from sqlalchemy import ColumnElement, Connection, and_, case, func, or_, select,
 
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
-from fairyring.storage.db.schema import comparison, image, prediction
+from fairyring.storage.db.schema import comparison, image, prediction, verdict
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Image, Status
+from fairyring.storage.records import Image, Says, Status
 
 Sort = Literal["name", "added", "caps", "cdr", "gain"]
 """`gain`: where a look is worth most, image by image of every light and form in turn."""
@@ -28,6 +28,8 @@ class ImageFilter(Struct, frozen=True, kw_only=True):
     search: str = ""
     """Part of the file name, upper or lower case."""
     status: Status | None = None
+    given_back: Says | None = None
+    """Last rejected, or last sent back, and to do since."""
     light: str | None = None
     form: str | None = None
     split: str | None = None
@@ -184,12 +186,21 @@ def _condition(which: ImageFilter) -> ColumnElement[bool]:
         wanted.append(image.c.split == which.split if which.split else image.c.split.is_(None))
     if which.search:
         wanted.append(image.c.file_name.icontains(which.search, autoescape=True))
+    if which.given_back is not None:
+        wanted += [image.c.status == "new", image.c.id.in_(_last_said(which.given_back))]
     if which.predicted is not None:
         wanted.append(image.c.predicted > 0 if which.predicted else image.c.predicted == 0)
     if which.annotated is not None:
         live = image.c.caps + image.c.ignored
         wanted.append(live > 0 if which.annotated else live == 0)
     return and_(image.c.id > 0, *wanted)
+
+
+def _last_said(says: Says) -> AnySelect:
+    """The images of which this was said last, comments aside."""
+    of_images = and_(verdict.c.annotation.is_(None), verdict.c.says != "comment")
+    last = select(func.max(verdict.c.sequence)).where(of_images).group_by(verdict.c.image)
+    return select(verdict.c.image).where(verdict.c.sequence.in_(last), verdict.c.says == says)
 
 
 def _order(which: ImageFilter) -> list[ColumnElement[Any]]:

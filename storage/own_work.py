@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection, func, select
 
-from fairyring.storage.db.rows import AnySelect
+from fairyring.storage.db.rows import AnySelect, require_image
 from fairyring.storage.db.schema import annotation, change_set, edit, prediction, status_change, verdict
 from fairyring.storage.errors import StoreError
 from fairyring.storage.ledger import stored_annotations
@@ -20,8 +20,8 @@ from fairyring.storage.rules import rules_of
 
 REMEDY = "Somebody else has to; or let the project allow it: fairyring rules PROJECT --approve-own."
 UNSEEN = (
-    "You have changed caps of this image and nobody else has looked at it since, so you cannot approve it. "
-    "Send it back for somebody to say that it is annotated, or have somebody else approve it."
+    "Send it back for somebody to say that it is annotated, or have somebody else approve it; "
+    "or let the project allow it: fairyring rules PROJECT --approve-own."
 )
 
 
@@ -29,10 +29,12 @@ def require_work_of_others(connection: Connection, image_id: int, *, user: str) 
     """Raises StoreError where an image is the work of ``user`` and the project wants others to approve it."""
     if rules_of(connection).approve_own:
         return
+    name = require_image(connection, image_id).file_name
     if user in workers_on(connection, image_id):
-        raise StoreError(f"You have labelled this image, so you cannot approve it. {REMEDY}")
+        raise StoreError(f"You have labelled {name}, so you cannot approve it. {REMEDY}")
     if has_unseen_changes(connection, image_id, user=user):
-        raise StoreError(UNSEEN)
+        told = f"You have changed caps of {name} and nobody else has looked at it since"
+        raise StoreError(f"{told}, so you cannot approve it. {UNSEEN}")
 
 
 def require_cap_of_others(connection: Connection, uid: str, *, user: str) -> None:

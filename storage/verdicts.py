@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from hashlib import sha256
 from typing import Any
 
 from msgspec import json
-from sqlalchemy import ColumnElement, Connection, Row, insert, select
+from sqlalchemy import ColumnElement, Connection, Row, func, insert, select
 
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.schema import verdict
@@ -76,6 +76,23 @@ def latest_verdict(connection: Connection, image_id: int) -> Says | None:
         .limit(1)
     )
     return connection.execute(last).scalar_one_or_none()
+
+
+def given_back(connection: Connection, image_ids: Iterable[int]) -> dict[int, Says]:
+    """Those of these images that were last rejected or sent back, with which of the two it was."""
+    last = (
+        select(func.max(verdict.c.sequence))
+        .where(
+            verdict.c.image.in_(list(image_ids)),
+            verdict.c.annotation.is_(None),
+            verdict.c.says != "comment",
+        )
+        .group_by(verdict.c.image)
+    )
+    asked = select(verdict.c.image, verdict.c.says).where(
+        verdict.c.sequence.in_(last), verdict.c.says.in_(("rejected", "sent_back"))
+    )
+    return {row.image: row.says for row in connection.execute(asked)}
 
 
 def _found(connection: Connection, which: ColumnElement[bool]) -> list[GivenVerdict]:

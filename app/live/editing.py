@@ -12,6 +12,7 @@ from sqlalchemy import Connection
 
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.whole_outlines import derived_of, load_caps, refit
+from fairyring.app.live.confirming import confirm
 from fairyring.app.live.many_edits import A_FEW, worker_of_edits
 from fairyring.app.live.repairs import repairs_told
 from fairyring.app.live.session import Session
@@ -68,7 +69,8 @@ async def apply_edits(workspace: Workspace, session: Session, message: Edits) ->
     session.refresh("cap", "status")
     session.follow("history")
     if message.statuses or message.verdicts:
-        workspace.follow("desk", "queue", "cap", "history")
+        workspace.follow("desk", "queue", "cap", "history", "status", "images")
+        await confirm(workspace, session, message, outcomes)
 
 
 async def _say_working(session: Session) -> None:

@@ -102,9 +102,11 @@ class Session:
             log.warning("A tab of %s does not read its messages; it is cut off.", self.user)
             self.hang_up()
 
-    def notify(self, text: str, level: Literal["info", "warning", "error"] = "info") -> None:
-        """Shows a sentence to the person at this tab."""
-        self.send(Notice(text=text, level=level))
+    def notify(
+        self, text: str, level: Literal["info", "warning", "error"] = "info", *, undo: int | None = None
+    ) -> None:
+        """Shows a sentence to the person at this tab, which may have the status of an image taken back."""
+        self.send(Notice(text=text, level=level, undo=undo))
 
     def refresh(self, *parts: str) -> None:
         """Asks for parts of the panel to be drawn anew, after what the person at this tab did."""

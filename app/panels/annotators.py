@@ -36,15 +36,17 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     async def choose() -> None:
         chosen = second.value
         run = None if chosen == NOBODY else await workspace.read(lambda c: require_run(c, chosen))
-        session.redraw_at_once(("annotators",))
         await compare_photo_with(workspace, session, run)
+        session.redraw_at_once(("annotators", "beside"))
 
     async def redraw() -> None:
         image = session.image.id if session.image else None
-        wanted = None if second.value == NOBODY else second.value
+        chosen = session.run_on_photo
+        wanted = chosen.name if chosen and chosen.kind == "import" else None
         names, found = await workspace.read(partial(_find, image=image, second=wanted))
         if tuple(second.options) != (NOBODY, *names):
             second.options = (NOBODY, *names)
+        second.value = wanted or NOBODY
         shown.content = agreement_table(found, wanted).html
 
     second.on_update(person_did(session, choose))

@@ -71,6 +71,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         chosen = drawn.value
         run = None if chosen == ON_SCREEN else await workspace.read(lambda c: require_run(c, chosen))
         await compare_photo_with(workspace, session, run)
+        session.redraw_at_once(("annotators",))
 
     async def start() -> None:
         for run in (await find()).lacking:
@@ -83,6 +84,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
             options = (unsaid, *found.runs)
             if tuple(box.options) != options:
                 box.options = options
+        drawn.value = session.run_on_photo.name if session.run_on_photo else ON_SCREEN
         shown.content = beside_page(found).html
         compare.visible = len(found.lacking) > 0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -15,7 +16,7 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels import splits
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.markup import Content, Markup, element
-from fairyring.app.panels.status import STATUS_OF_WORD, STATUS_WORDS
+from fairyring.app.panels.status import SAID_WORDS, STATUS_OF_WORD, status_badge
 from fairyring.model.light_and_form import FORMS, LIGHTS
 from fairyring.model.splits import Split
 from fairyring.storage.images import (
@@ -26,10 +27,14 @@ from fairyring.storage.images import (
     list_images,
     position_in_list,
 )
+from fairyring.storage.records import Says
 from fairyring.storage.taken_out import taken_out
+from fairyring.storage.verdicts import given_back
 
 PAGE = 10
 ANY = "any"
+SAID_OF_WORD: dict[str, Says] = {word: says for says, word in SAID_WORDS.items()}
+NOTHING_SAID: Mapping[int, Says] = {}
 ORDERS = {
     "name": ImageFilter(),
     "name, Z first": ImageFilter(descending=True),
@@ -53,7 +58,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     gui, at = session.client.gui, _Shown()
     search = gui.add_text("Search", "", hint="Part of a file name")
     with gui.add_folder("Filter and order", expand_by_default=False):
-        status = gui.add_dropdown("Status", (ANY, *STATUS_OF_WORD))
+        status = gui.add_dropdown("Status", (ANY, *STATUS_OF_WORD, *SAID_OF_WORD))
         light = gui.add_dropdown("Light", (ANY, *LIGHTS))
         form = gui.add_dropdown("Form", (ANY, *FORMS))
         split = gui.add_dropdown("Split", (ANY, *Split, splits.NONE))
@@ -71,6 +76,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         session.filter = ImageFilter(
             search=search.value.strip(),
             status=STATUS_OF_WORD.get(status.value),
+            given_back=SAID_OF_WORD.get(status.value),
             light=_chosen(light.value),
             form=_chosen(form.value),
             split="" if split.value == splits.NONE else _chosen(split.value),
@@ -92,12 +98,12 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         here = session.image.id if session.image else None
         wanted = at.page if here == at.image else None
         find = partial(_find, which=session.filter, here=here, wanted=wanted)
-        at.page, page, position = await workspace.read(find)
+        at.page, page, position, said = await workspace.read(find)
         at.image = here
         if position is not None and here not in session.queue:
             session.position, session.count = position.position, position.count
         session.refresh("status")
-        shown.content = image_list(page, at.page, here).html
+        shown.content = image_list(page, at.page, here, said).html
         await redraw_splits()
 
     for control in (search, status, light, form, split, order):
@@ -115,8 +121,8 @@ def _chosen(value: str) -> str | None:
 
 def _find(
     connection: Connection, *, which: ImageFilter, here: int | None, wanted: int | None
-) -> tuple[int, ImagePage, ListPosition | None]:
-    """The number of a page, the page, and where the image on screen stands.
+) -> tuple[int, ImagePage, ListPosition | None, dict[int, Says]]:
+    """The number of a page, the page, where the image on screen stands, and which images were given back.
 
     The page ``wanted``, or the last one if there are fewer; None asks for the one with the image on screen.
     """
@@ -127,11 +133,13 @@ def _find(
     last = max(page.total - 1, 0) // PAGE
     if wanted > last:
         wanted, page = last, list_images(connection, which, offset=last * PAGE, limit=PAGE)
-    return wanted, page, at
+    return wanted, page, at, given_back(connection, [row.image.id for row in page.rows])
 
 
-def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
-    """A page of the list; the row of the image on screen stands out."""
+def image_list(
+    page: ImagePage, number: int, current: int | None, said: Mapping[int, Says] = NOTHING_SAID
+) -> Markup:
+    """A page of the list with what was last said of its images; the row of the one on screen stands out."""
     if not page.rows:
         return element("div", "No image fits these filters.", class_="fr-images fr-quiet")
     first = number * PAGE + 1
@@ -143,7 +151,7 @@ def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
         element("th", "Caps", class_="fr-number", width=48),
         element("th", "CDR %", class_="fr-number", width=64),
     )
-    rows = (_row(row, current=row.image.id == current) for row in page.rows)
+    rows = (_row(row, said.get(row.image.id), current=row.image.id == current) for row in page.rows)
     return element(
         "div",
         element("table", element("thead", head), element("tbody", *rows), class_="fr-list"),
@@ -152,12 +160,12 @@ def image_list(page: ImagePage, number: int, current: int | None) -> Markup:
     )
 
 
-def _row(row: ImageRow, *, current: bool) -> Markup:
+def _row(row: ImageRow, said: Says | None, *, current: bool) -> Markup:
     image = row.image
     thumbnail = element("img", src=f"{photo_address(image)}?w=160", alt="", loading="lazy")
     caps = element("span", row.caps, title=f"{row.ignored} ignored, {row.predicted} predicted")
     name = element("span", image.file_name, class_="fr-ellipsis", title=image.file_name)
-    status = element("span", STATUS_WORDS[image.status], class_=f"fr-badge fr-{image.status}")
+    status = status_badge(image, said)
     known = (image.light, image.form and f"form {image.form}", image.split)
     facts = " · ".join(fact for fact in known if fact)
     return element(

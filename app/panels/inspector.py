@@ -112,7 +112,6 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         for word, raised in (("ignored", cap.ignored), ("doubtful", cap.doubtful))
         if raised
     ]
-    order = "not set" if cap.order is None else f"{cap.order} (higher lies in front)"
     facts: Facts = [
         ("Centre", _point(annotation.centre)),
         ("Whole", _shape(annotation.whole)),
@@ -120,7 +119,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         *([("Rim", arcs_list(background.arcs))] if background.arcs else []),
         ("Mark", _mark(cap.mark)),
         *error_facts(background.pair, floor=background.floor),
-        ("Overlap", order),
+        *([] if cap.order is None else [("Overlap", f"{cap.order} (higher lies in front)")]),
         ("From", _origin(background)),
         ("Edited", _last_edit(annotation, background.entries)),
     ]

@@ -47,7 +47,9 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         for tab in workspace.tabs:
             if tab.run is not None and tab.run.id == run.id:
                 tab.run = await run_called(new)
-        workspace.refresh("runs", "status", "review", "gallery", "beside", "plots")
+            if tab.run_on_photo is not None and tab.run_on_photo.id == run.id:
+                tab.run_on_photo = await run_called(new)
+        workspace.refresh("runs", "status", "review", "gallery", "beside", "annotators", "plots")
 
     async def export_it() -> None:
         run = await run_called(chosen.value)

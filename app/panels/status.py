@@ -12,9 +12,13 @@ from fairyring.app.panels.buttons import command_button
 from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.job_progress import progress_line
 from fairyring.app.panels.markup import Markup, element
-from fairyring.storage.records import Run, Status
+from fairyring.storage.records import Image, Run, Says, Status
+from fairyring.storage.verdicts import given_back
 
 STATUS_WORDS: dict[Status, str] = {"new": "to do", "annotated": "annotated", "approved": "approved"}
+SAID_WORDS: dict[Says, str] = {"rejected": "rejected", "sent_back": "sent back"}
+"""What is said of an image that is to do again."""
+SIGNS = {"to do": "○", "annotated": "◐", "approved": "✓", "sent back": "↩", "rejected": "✗"}
 STATUS_OF_WORD: dict[str, Status] = {word: status for status, word in STATUS_WORDS.items()}
 
 
@@ -23,16 +27,32 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     shown = session.client.gui.add_html("")
 
     async def redraw() -> None:
-        shown.content = header(session, project=workspace.project.name, jobs=workspace.jobs.running).html
+        image = session.image
+        said = {} if image is None else await workspace.read(lambda c: given_back(c, [image.id]))
+        now = header(
+            session,
+            project=workspace.project.name,
+            jobs=workspace.jobs.running,
+            said=said.get(image.id) if image else None,
+        )
+        shown.content = now.html
 
     return redraw
 
 
-def header(session: Session, *, project: str, jobs: Sequence[Job]) -> Markup:
-    """The header of a tab as it is now, with the jobs at work."""
+def status_badge(image: Image, said: Says | None) -> Markup:
+    """What people say of an image, with a sign; one that was rejected or sent back is called so."""
+    is_back = image.status == "new" and said in SAID_WORDS
+    word = SAID_WORDS[said] if is_back and said else STATUS_WORDS[image.status]
+    look = said if is_back and said else image.status
+    return element("span", f"{SIGNS[word]} {word}", class_=f"fr-badge fr-{look}", title="Status of the image")
+
+
+def header(session: Session, *, project: str, jobs: Sequence[Job], said: Says | None = None) -> Markup:
+    """The header of a tab as it is now, with the jobs at work and what was last said of the image."""
     return element(
         "header",
-        element("div", *_image_line(session), class_="fr-line"),
+        element("div", *_image_line(session, said), class_="fr-line"),
         element("div", *_person_line(session, project), class_="fr-line fr-quiet"),
         element("div", *_work_line(session), class_="fr-line fr-quiet"),
         *(progress_line(job, own=job.may_be_cancelled_by(session.user)) for job in jobs),
@@ -40,13 +60,14 @@ def header(session: Session, *, project: str, jobs: Sequence[Job]) -> Markup:
     )
 
 
-def _image_line(session: Session) -> list[Markup]:
+def _image_line(session: Session, said: Says | None) -> list[Markup]:
     image = session.image
     if image is None:
         return [element("strong", "No image open")]
     return [
         command_button("previous_image", class_="fr-step"),
         element("strong", image.file_name, class_="fr-ellipsis", title=image.file_name),
+        status_badge(image, said),
         element("span", f"{session.position + 1} of {session.count}", class_="fr-quiet fr-push"),
         command_button("next_image", class_="fr-step"),
     ]

@@ -33,6 +33,8 @@ class Standing(Struct, frozen=True, kw_only=True):
     done: int
     of: int
     approved: int
+    sent_back: int = 0
+    rejected: int = 0
     interval: tuple[float, float]
     """Of the share that was approved, with 95 % confidence."""
 
@@ -74,6 +76,8 @@ def standing_of(queue: Queue, decisions: dict[int, Says]) -> Standing:
         done=len(decisions),
         of=len(queue.images),
         approved=approved,
+        sent_back=sum(says == "sent_back" for says in decisions.values()),
+        rejected=sum(says == "rejected" for says in decisions.values()),
         interval=wilson_interval(approved, len(decisions)),
     )
 

@@ -14,6 +14,7 @@ import { listenToPanel } from "./ui/panel.js";
 import { listenToPlots } from "./ui/plots.js";
 import { showProgress } from "./ui/progress.js";
 import { listenToTags } from "./ui/tags.js";
+import { reviewStripIn } from "./ui/review_strip.js";
 import { takePhotos } from "./ui/uploads.js";
 import { followView } from "./ui/view_controls.js";
 import { hideNoteOnSlowWebGL } from "./ui/viser_notes.js";
@@ -42,6 +43,7 @@ export function listen(parts) {
   listenToInput(parts);
   listenToTags(() => state.image, parts.send, say);
   listenToArcs(state);
+  reviewStripIn(host, state, parts.reviewing.review);
   const legend = legendIn(host);
   state.look.changed.listen((_, { colouring }) => legend(colouring));
   followView(state.layers, state.look);

@@ -12,10 +12,23 @@ import { showJob } from "./ui/job_lines.js";
  * @property {import("./sync/cap_requests.js").CapRequests} found
  * @property {import("./opening.js").Opening} opening
  * @property {(name: string) => boolean} perform
- * @property {(text: string, level: "info" | "warning" | "error") => void} say
+ * @property {import("./ui/notices.js").Say} say
  * @property {() => string} user  whose page this is
  * @property {() => void} progress  shows what waits, and the status
  */
+
+/** A button that takes the status of an image back, while that is what was done there last. @type {(sync: import("./sync/sync.js").Sync, image: number | null) => import("./ui/notices.js").Remedy | null} */
+function undoing(sync, image) {
+  if (image === null || !sync.hasFinished(image)) return null;
+  return {
+    word: "Undo",
+    about: "decision",
+    act: (close) => {
+      close();
+      if (sync.hasFinished(image)) sync.undoOn(image);
+    },
+  };
+}
 
 /** Hands what the server says to whom it concerns. @type {(parts: Parts) => (message: FromServer) => void} */
 export function receiver({ state, sync, reviewing, repeating, liveFit, found, opening, perform, say, user, progress }) {
@@ -53,7 +66,7 @@ export function receiver({ state, sync, reviewing, repeating, liveFit, found, op
       case "command":
         return void perform(message.name);
       case "notice":
-        return say(message.text, message.level);
+        return say(message.text, message.level, undoing(sync, message.undo));
     }
   };
 }

@@ -33,6 +33,7 @@ export class Reviewing {
       if (this.review.on && !was) this.ask();
       was = this.review.on;
       if (!was) this.#stay();
+      state.reviewing = this.review.on;
       state.showBesides(this.review.extra(state.image?.id ?? 0));
       state.signals.overlay.emit();
     });

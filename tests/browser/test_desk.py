@@ -95,10 +95,16 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     tab.page.keyboard.type("The fifth cap is missing")
     tab.press("Enter")
     on_image(tab, 2)
+    tab.page.get_by_text("Sent bed_1.png back: “The fifth cap is missing”. 2 to review.").wait_for()
     tab.press("Shift+X")
-    tab.page.get_by_role("textbox", name="Why is it rejected?").wait_for()
-    tab.page.keyboard.type("Out of focus")
+    asked = tab.page.get_by_role("dialog", name="Reject bed_2.png: why?")
+    asked.get_by_role("textbox", name="Why is it rejected?").wait_for()
     tab.press("Enter")
+    asked.get_by_text("Say why first: press 1 to 5, or write it.").wait_for()
+    asked.get_by_role("button", name="Cancel Esc").click()
+    asked.wait_for(state="detached")
+    tab.press("Shift+X", "1")
+    asked.get_by_role("button", name="Reject the image Enter").click()
     on_image(tab, 3)
     tab.saved()
     assert [(v.says, v.words) for v in said_of(project, 1)] == [("sent_back", "The fifth cap is missing")]
@@ -108,9 +114,16 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     on_image(tab, 2)
     card = tab.page.get_by_label("Selected cap")
     card.get_by_text("Rev rejected: Out of focus").wait_for()
+    tab.page.locator(".fr-header").get_by_text("✗ rejected").wait_for()
+    tab.page.locator(".fr-images tr", has_text="bed_1.png").get_by_text("↩ sent back").wait_for()
     tab.page.get_by_role("tab", name="Review").click()
     said = tab.page.get_by_label("Said of this image")
     said.get_by_text("Rev rejected: Out of focus").wait_for()
+    decided = tab.page.locator(".fairyring-notice", has_text="Rejected bed_2.png: “Out of focus”.")
+    decided.get_by_role("button", name="Undo").click()
+    tab.page.get_by_text("Taken back: bed_2.png is annotated again.").wait_for()
+    tab.saved()
+    assert status_of(project, 2) == "annotated"
 
 
 def test_a_comment_on_a_cap_leads_back_to_the_cap(project: Path, server: Server, open_tab: OpenTab) -> None:
@@ -137,7 +150,7 @@ def test_ada_cannot_approve_her_own_work_until_the_project_allows_it(
     tab = open_tab(server, name="Ada")
     tab.press("Shift+Enter")
     say_yes(tab)
-    tab.page.get_by_text("You have labelled this image").wait_for()
+    tab.page.get_by_text("You have labelled bed_1.png").wait_for()
     assert status_of(project, 1) == "annotated"
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("Rules of this project").click()
@@ -225,7 +238,7 @@ def test_a_queue_is_gone_through_with_the_agreement_and_taken_up_again_after_a_r
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("2 of 3 done, agreement 50 % (9 to 91 %)").wait_for()
     tab.page.get_by_role("button", name="End the queue").click()
-    tab.page.get_by_text("1 images wait for a review.").wait_for()
+    tab.page.get_by_text("1 image waits for a review.").wait_for()
 
 
 def test_a_random_sample_that_passes_has_the_rest_approved(tmp_path: Path, browser: Browser) -> None:
@@ -279,6 +292,7 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     on_image(tab, 3)
     selected(tab, uid_of(3, 1))
     assert tab.state("review.on") is True
+    tab.page.get_by_text("3 of 3 differences").wait_for()
     caps.get_by_role("button", name="3 missed").click()
     caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()
     worst.first.click()
@@ -288,6 +302,32 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     worst.nth(1).click()
     on_image(tab, 2)
     tab.wait_for("window.fairyring.state.selection[0]?.startsWith('prediction:')")
+    (turned_down,) = tab.state("selection")
+    tab.press("Delete")
+    tab.saved()
+    tab.wait_for("!window.fairyring.state.selection.length")
+    worst.nth(1).click()
+    selected(tab, turned_down)
+    tab.page.get_by_text("extra: turned down").wait_for()
+    tab.press("s")
+    tab.saved()
+    assert len(tab.state("shapes")) == 6
+    tab.press("Escape", "f", "c")
+    # A circle around the cap that Ada drew, which is not selected, is a mark of that cap.
+    drag(tab, (400.0, 300.0), (444.0, 300.0))
+    selected(tab, uid_of(2, 4))
+    tab.saved()
+    assert len(tab.state("shapes")) == 6
+    tab.press("Shift+Enter")
+    tab.page.get_by_text("You have changed caps of bed_2.png").wait_for()
+
+
+def drag(tab: Tab, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """From one point of the image to another."""
+    tab.page.mouse.move(*tab.screen(start))
+    tab.page.mouse.down()
+    tab.page.mouse.move(*tab.screen(end), steps=4)
+    tab.page.mouse.up()
 
 
 def hover_until_named(tab: Tab, words: Locator, *, across: float) -> None:

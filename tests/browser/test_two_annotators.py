@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -55,5 +56,14 @@ def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
     table.get_by_role("row", name="kappa of doubtful 0.00", exact=True).wait_for()
     # Its six caps: four of both, and one of each.
     tab.wait_for("window.fairyring.state.review.caps.length === 6")
+    tab.page.get_by_text("Two runs side by side", exact=True).click()
+    on_photo = tab.page.get_by_role("combobox", name="On the photo", exact=True)
+    expect(on_photo).to_have_value("ben.json")
+    on_photo.click()
+    tab.page.get_by_role("option", name="the latest of each image", exact=True).click()
+    expect(tab.page.get_by_role("combobox", name="Second annotator", exact=True)).to_have_value("nobody else")
+    on_photo.click()
+    tab.page.get_by_role("option", name="ben.json", exact=True).last.click()
+    table.wait_for()
     tab.press("n")
     tab.page.get_by_text("ben.json holds nothing of this photo.").wait_for()

@@ -166,6 +166,7 @@
  * @property {"notice"} type
  * @property {string} text
  * @property {"info" | "warning" | "error"} level
+ * @property {number | null} undo
  */
 
 /** @typedef {Welcome | Show | Outcomes | Working | StatusChanged | Recalled | Changed | Predicted | FoundCap | Compared | MarkAgain | KeptAgain | Fitted | JobProgress | Command | Notice} FromServer */

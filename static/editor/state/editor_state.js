@@ -43,6 +43,8 @@ export class EditorState {
   layers = new Layers();
   look = new PhotoLook();
   viewport = new Viewport(() => this.signals.overlay.emit());
+  /** A reviewer looks at what differs: nobody is expected to lay caps over those that are there. */
+  reviewing = false;
   /** What the server said last about an outline. @type {Fitted | null} */
   fitted = null;
 

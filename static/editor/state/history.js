@@ -128,6 +128,11 @@ export class History {
     this.#undone = mended(this.#undone);
   }
 
+  /** Whether what was done last was a change of status. */
+  get endsInStatus() {
+    return Boolean(this.#done.at(-1)?.status);
+  }
+
   get depth() {
     return { undo: this.#done.length, redo: this.#undone.length };
   }

@@ -13,7 +13,15 @@ import { signal } from "./signal.js";
 /** @typedef {import("../protocol.js").ComparedCap} ComparedCap */
 /** @typedef {import("./editor_state.js").EditorState} EditorState */
 
-/** @typedef {{question: string, cap: boolean, first: "cap" | "image"}} WordsQuestion  whether a cap is selected, and what Enter is about if so */
+/**
+ * @typedef {Object} WordsQuestion
+ * @property {string} title
+ * @property {string} question  what the words answer
+ * @property {string} verb  of the buttons
+ * @property {string[]} reasons  that can be chosen by number
+ * @property {boolean} cap  whether a cap is selected
+ * @property {"cap" | "image"} first  what Enter is about where one is
+ */
 /** @typedef {{about: "cap" | "image", words: string}} Said */
 
 /** Outlines that are as like as this need no look. */

@@ -173,6 +173,16 @@ export class Sync {
     this.#travelling.redo();
   }
 
+  /** Whether the status of an image is what was changed there last. @type {(image: number) => boolean} */
+  hasFinished(image) {
+    return this.#local.historyOf(image).endsInStatus;
+  }
+
+  /** Takes back what was done last on an image. @type {(image: number) => void} */
+  undoOn(image) {
+    this.#travelling.undoOn(image);
+  }
+
   /** Takes back a change set of the image's history, whoever made it. @type {(image: number, changeSet: number) => void} */
   takeBack(image, changeSet) {
     this.#travelling.takeBack(image, changeSet);

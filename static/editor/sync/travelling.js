@@ -68,7 +68,11 @@ export class Travelling {
 
   /** Takes back what was done last here; what this page does not remember the journal does. */
   undo() {
-    const image = this.#finished?.image ?? this.#local.image;
+    this.undoOn(this.#finished?.image ?? this.#local.image);
+  }
+
+  /** @type {(image: number) => void} */
+  undoOn(image) {
     this.#finished = null;
     this.#travel("undo", image);
   }

@@ -2,7 +2,7 @@ import { element } from "./dom.js";
 
 /** @typedef {import("../protocol.js").Notice["level"]} Level */
 
-/** What can be done about a sentence, and what happens when it is there no longer. @typedef {{word: string, act: () => void, closed?: () => void}} Remedy */
+/** What can be done about a sentence, and what happens when it is there no longer. @typedef {{word: string, act: (close: () => void) => void, closed?: () => void, about?: string}} Remedy  a later sentence about the same takes its place */
 /** @typedef {(text: string, level?: Level, remedy?: Remedy | null) => void} Say */
 
 const SHOWN_MS = { info: 4000, warning: 9000, error: 0 };
@@ -33,14 +33,22 @@ export function noticesIn(host) {
     if (remedy) {
       const { word, act } = remedy;
       const attributes = { type: "button" };
-      notice.append(element("button", { class: "is-remedy", text: word, click: act, attributes }));
+      const click = () => act(() => remove(notice));
+      notice.append(element("button", { class: "is-remedy", text: word, click, attributes }));
     }
     const attributes = { type: "button", "aria-label": "Close" };
     notice.append(element("button", { text: "×", click: () => remove(notice), attributes }));
     if (remedy?.closed) closing.set(notice, remedy.closed);
-    for (const old of list.children) if (old.firstChild?.textContent === text) remove(old);
+    if (remedy?.about) notice.dataset.about = remedy.about;
+    for (const old of [...list.children]) if (isReplaced(old, text, remedy)) remove(old);
     list.append(notice);
     while (list.children.length > MOST) remove(list.children[0]);
-    if (SHOWN_MS[level]) setTimeout(() => remove(notice), SHOWN_MS[level]);
+    if (SHOWN_MS[level]) setTimeout(() => remove(notice), SHOWN_MS[level] * (remedy ? 2 : 1));
   };
+}
+
+/** @type {(old: Element, text: string, remedy: Remedy | null) => boolean} */
+function isReplaced(old, text, remedy) {
+  const about = old instanceof HTMLElement ? old.dataset.about : undefined;
+  return old.firstChild?.textContent === text || (about !== undefined && about === remedy?.about);
 }

@@ -40,6 +40,7 @@ function reviewed() {
 
 /** What is selected, going on until it comes round. @type {(found: ReturnType<typeof reviewed>) => string[]} */
 function walk({ state, review }) {
+  /** @type {string[]} */
   const seen = [];
   for (let next = new Standing(state, review).next(1); next && !seen.includes(next); next = new Standing(state, review).next(1)) {
     lookAt(state, next);

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fairyring.storage.candidates import candidates, count_waiting, people
+from fairyring.storage.candidates import candidates, count_candidates, count_waiting, people
 from fairyring.storage.journal import commit
 from fairyring.storage.queues import decisions_in, end_queue, make_queue, queue_of
 from fairyring.storage.records import Cap, StatusEdit, Verdict
@@ -46,6 +46,8 @@ def test_what_is_annotated_waits_and_what_is_approved_does_not(annotated):
     assert [each.image for each in read(annotated, candidates)] == [2]
     assert [each.image for each in read(annotated, candidates, unfinished=True)] == [2, 3]
     assert [each.image for each in read(annotated, candidates, annotator="bob", unfinished=True)] == [3]
+    for which in ({}, {"unfinished": True}, {"annotator": "bob", "unfinished": True}):
+        assert read(annotated, count_candidates, **which) == len(read(annotated, candidates, **which))
     assert read(annotated, count_waiting) == 1
     assert read(annotated, people) == ["ann", "bob", "rev"]
 
@@ -54,6 +56,7 @@ def test_an_edit_after_the_approval_brings_an_image_back_as_reopened(annotated):
     say(annotated, 1, "annotated", "approved", user="rev")
     one(annotated, "again", annotation="cap1", base=1, cap=Cap(visible=TRIANGLE))
     assert {each.image: each.reopened for each in read(annotated, candidates)} == {1: True, 2: False}
+    assert read(annotated, count_candidates, reopened=True) == 1
 
 
 def test_a_queue_is_kept_until_it_is_ended_or_another_is_begun(annotated):

@@ -6,13 +6,13 @@ import pytest
 
 from fairyring.storage.contents import load_predictions
 from fairyring.storage.image_history import list_change_sets
-from fairyring.storage.images import get_image
+from fairyring.storage.images import ImageFilter, get_image, list_ids
 from fairyring.storage.journal import commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.records import Cap, Refused, Rules, Says, StatusEdit, StatusStored, Verdict
 from fairyring.storage.rules import rules_of, set_rules
 from fairyring.storage.taken_out import put_back, take_out
-from fairyring.storage.verdicts import latest_verdict, verdicts_of
+from fairyring.storage.verdicts import given_back, latest_verdict, verdicts_of
 from tests.support.edits import one
 from tests.unit.storage.conftest import TRIANGLE
 
@@ -101,10 +101,8 @@ def test_a_cap_that_is_gone_or_of_another_image_is_not_judged(annotated):
 
 
 def test_nobody_approves_what_they_have_labelled(annotated):
-    assert "You have labelled this image" in reason(judge(annotated, user="ann"))
-    assert "You have labelled this image" in reason(
-        set_to(annotated, "s2", "annotated", "approved", user="ann")
-    )
+    assert "You have labelled " in reason(judge(annotated, user="ann"))
+    assert "You have labelled " in reason(set_to(annotated, "s2", "annotated", "approved", user="ann"))
     assert "You have drawn or changed this cap" in reason(
         judge(annotated, "v2", annotation="cap", user="ann")
     )
@@ -164,6 +162,25 @@ def test_what_was_taken_back_is_nobodys_work(beds, square):
     one(beds, "e3", base=2, cap=Cap(visible=square), user="rev", takes_back="drawn")
     set_to(beds, "s1", "new", "annotated", user="ann")
     assert status(judge(beds)) == "approved"
+
+
+def test_images_that_were_given_back_are_told_apart_and_found(annotated):
+    judge(annotated, says="rejected", words="Out of focus")
+    judge(annotated, "v2", says="comment", words="Pity")
+    judge(annotated, "v3", says="sent_back", words="Caps are missing", image=2)
+
+    def found():
+        with annotated.read() as connection:
+            said = given_back(connection, [1, 2, 3])
+            rejected = list_ids(connection, ImageFilter(given_back="rejected"))
+            sent_back = list_ids(connection, ImageFilter(given_back="sent_back"))
+        return said, rejected, sent_back
+
+    assert found() == ({1: "rejected", 2: "sent_back"}, [1], [2])
+    set_to(annotated, "s2", "new", "annotated", user="ann")
+    assert found() == ({1: "rejected", 2: "sent_back"}, [], [2])
+    judge(annotated, "v4")
+    assert found() == ({2: "sent_back"}, [], [2])
 
 
 def test_flags_that_a_reviewer_sets_are_no_drawing(annotated, square):

@@ -64,27 +64,35 @@ export async function approveAndGoOn(context) {
 
 /** @type {(context: Context) => Promise<void>} */
 export async function sendBack(context) {
-  await say(context, "sent_back", "What is to be done about it?");
+  const reasons = ["Caps are missing", "Caps that are none", "Outlines are off", "Marks are off"];
+  const question = "What is to be done about it?";
+  await say(context, "sent_back", { title: "Send {} back: what is to be done?", question, verb: "Send back", reasons });
 }
 
 /** @type {(context: Context) => Promise<void>} */
 export async function reject(context) {
-  await say(context, "rejected", "Why is it rejected?");
+  const reasons = ["Out of focus", "Too dark or too bright", "Caps are covered or cut off", "No mushrooms", "The same photo twice"];
+  await say(context, "rejected", { title: "Reject {}: why?", question: "Why is it rejected?", verb: "Reject", reasons });
 }
 
 /** @type {(context: Context) => Promise<void>} */
 export async function comment(context) {
-  await say(context, "comment", "Comment");
+  await say(context, "comment", { title: "Comment on {}", question: "Comment", verb: "Comment on", reasons: [] });
 }
 
-/** Of the selected cap or the image; what is said of the image leads on to the next. @type {(context: Context, says: Says, question: string) => Promise<void>} */
-async function say({ state, askWords, judge, send }, says, question) {
+/**
+ * Of the selected cap or the image; what is said of the image leads on to the next. `{}` in the title is the image.
+ *
+ * @type {(context: Context, says: Says, how: Pick<import("../../state/review.js").WordsQuestion, "title" | "question" | "verb" | "reasons">) => Promise<void>}
+ */
+async function say({ state, askWords, judge, send }, says, how) {
   state.commitDrafts();
   const { image } = state;
   const uid = state.selection.soleUid;
   const cap = uid !== null && state.store.get(uid) ? uid : null;
   if (!image) return;
-  const said = await askWords({ question, cap: cap !== null, first: says === "comment" ? "cap" : "image" });
+  const title = how.title.replace("{}", () => image.file_name);
+  const said = await askWords({ ...how, title, cap: cap !== null, first: says === "comment" ? "cap" : "image" });
   if (!said || state.image?.id !== image.id) return;
   judge(said.about === "cap" ? cap : null, says, said.words);
   if (said.about === "image" && says !== "comment") send({ type: "step", by: 1 });

@@ -7,8 +7,8 @@
 
 import { boundsOfWhole, circleOfWhole, newCap, polygonOfWhole } from "../../geometry/caps.js";
 import { seenOf } from "../../geometry/what_is_seen.js";
-import { isHalfHidden, isMarkOf } from "../../geometry/marks.js";
-import { newShape, withCap } from "../../geometry/shapes.js";
+import { isHalfHidden, isMarkOf, shareInside } from "../../geometry/marks.js";
+import { isPrediction, newShape, withCap } from "../../geometry/shapes.js";
 import { toScreen } from "../../geometry/view.js";
 import { newId } from "../../ids.js";
 import { CASING, COLOURS, FILLS } from "../../render/palette.js";
@@ -20,11 +20,15 @@ import { changed } from "../../state/changes.js";
 /** @typedef {import("../../protocol.js").Whole} Whole */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 
+/** A circle around less of a cap that is not selected is another cap upon it. */
+const LEAST_AROUND = 0.5;
+
 /** @type {(state: EditorState, whole: Whole) => void} */
 export function place(state, whole) {
   const marked = markedBy(state, whole);
   if (marked) {
     state.commit([changed(marked, withCap(marked, { ...marked.cap, mark: whole }))]);
+    state.select([marked.uid]);
     return;
   }
   const after = newShape(newId(), newCapOf(state, whole));
@@ -33,11 +37,19 @@ export function place(state, whole) {
   state.signals.drawn.emit(after);
 }
 
-/** The selected cap, where this is its mark. @type {(state: EditorState, whole: Whole) => Shape | null} */
+/** The selected cap, where this is its mark; while a reviewer looks, any cap that it is around. @type {(state: EditorState, whole: Whole) => Shape | null} */
 function markedBy(state, whole) {
   const { sole, explanation } = state;
-  if (!sole) return null;
-  return isMarkOf(circleOfWhole(whole), sole, { halfHidden: isHalfHidden(sole, explanation) }) ? sole : null;
+  const circle = circleOfWhole(whole);
+  if (sole && isMarkOf(circle, sole, { halfHidden: isHalfHidden(sole, explanation) })) return sole;
+  if (!state.reviewing) return null;
+  const caps = state.near(boundsOfWhole(whole)).filter((shape) => !isPrediction(shape) && !shape.cap.ignored);
+  return caps.find((shape) => isMarkOf(circle, shape) && isAround(circle, shape.cap)) ?? null;
+}
+
+/** @type {(circle: import("../../protocol.js").Circle, cap: Cap) => boolean} */
+function isAround(circle, { visible }) {
+  return visible.length === 0 || shareInside(visible, circle) >= LEAST_AROUND;
 }
 
 /** @type {(state: EditorState, whole: Whole) => Cap} */
@@ -61,5 +73,6 @@ export function drawPlaced(context, state, whole) {
   traceCross(context, ...toScreen(view, whole.cx, whole.cy), 6);
   strokeCased(context, { colour: COLOURS.mark, width: 2, casing: CASING });
   const [x, y] = toScreen(view, whole.cx, boundsOfWhole(whole).y1);
-  writeCentred(context, marked ? "mark of the selected cap" : "new cap", x, y + 6);
+  const words = marked === state.sole ? "mark of the selected cap" : "mark of this cap";
+  writeCentred(context, marked ? words : "new cap", x, y + 6);
 }

@@ -1,6 +1,8 @@
 """Which images a reviewer goes through, in which order, and when the rest may be approved."""
 
-from fairyring.app.panels.queue import progress_words, queue_line
+import pytest
+
+from fairyring.app.panels.queue import progress_words, queue_line, size_words, waiting_words
 from fairyring.app.review.queueing import EDITED, has_passed, ordered, rest_of, sampled, standing_of
 from fairyring.storage.candidates import Candidate
 from fairyring.storage.records import Queue, SamplingPlan, Says
@@ -60,3 +62,20 @@ def test_progress_is_told_with_the_agreement_and_its_interval():
     # statsmodels.stats.proportion.proportion_confint(11, 12, method="wilson") is 0.646 to 0.985.
     assert progress_words(standing_of(at, decisions)) == "12 of 200 done, agreement 92 % (65 to 99 %)"
     assert "0 of 200 done" in queue_line(at, standing_of(at, {}), waiting=0).html
+    told = queue_line(at, standing_of(at, decisions), waiting=0).html
+    assert "✓ 11 approved · ✗ 1 rejected" in told
+    assert "sent back" not in told
+
+
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [(0, "No image waits for a review."), (1, "1 image waits for"), (3, "3 images wait for")],
+)
+def test_how_many_wait_is_a_sentence(count, words):
+    assert waiting_words(count).startswith(words)
+
+
+def test_how_many_images_fit_a_queue_is_said_before_it_is_begun():
+    assert "No image fits this queue" in size_words(0, sample=None).html
+    assert "1 image fits" in size_words(1, sample=None).html
+    assert "47 of 200 images have to be looked at" in size_words(200, sample=47).html

@@ -1,0 +1,73 @@
+/**
+ * The line over the photo that tells a reviewer how many differences there are, which one is selected, and what the
+ * lines mean.
+ *
+ * @module
+ */
+
+import { COLOURS } from "../render/palette.js";
+import { heirsIn } from "../state/changes.js";
+import { Standing, partnerOf } from "../state/review.js";
+import { element } from "./dom.js";
+
+/** @typedef {import("../protocol.js").ComparedCap} ComparedCap */
+/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("../state/review.js").Review} Review */
+
+/** @type {(host: HTMLElement, state: EditorState, review: Review) => void} */
+export function reviewStripIn(host, state, review) {
+  const counter = element("strong");
+  const kind = element("span");
+  const centres = lineOf("", COLOURS.selected);
+  const key = element("div", {}, lineOf("annotator’s", COLOURS.outline), lineOf("model’s", COLOURS.predicted, "5 3"), centres);
+  const told = element("div", { attributes: { role: "status" } }, counter, kind);
+  const strip = element("div", { class: "fairyring-review" }, told, key);
+  strip.dataset.fairyringChrome = "";
+  host.append(strip);
+  const update = () => {
+    const { image } = state;
+    strip.hidden = !review.on || !image;
+    if (strip.hidden || !image) return;
+    const known = review.image === image.id;
+    const cap = known ? review.selected(state) : null;
+    counter.textContent = known ? countWords(new Standing(state, review)) : "Comparing…";
+    kind.textContent = cap ? kindWords(state, review, cap) : "";
+    centres.lastChild?.replaceWith(`between centres${review.times > 1 ? ` × ${review.times}` : ""}`);
+  };
+  review.changed.listen(update);
+  state.signals.selection.listen(update);
+  state.store.changed.listen(update);
+  update();
+}
+
+/** @type {(standing: Pick<Standing, "at" | "done" | "total" | "left">) => string} */
+export function countWords({ at, done, total, left }) {
+  const differences = total === 1 ? "difference" : "differences";
+  if (total === 0) return "No differences";
+  if (left.length === 0) return `All ${total} ${differences} decided`;
+  if (at < 0) return `${left.length} of ${total} ${differences} left`;
+  return `${done + at + 1} of ${total} ${differences}`;
+}
+
+/** How what was annotated and what was predicted differ. @type {(state: EditorState, review: Review, cap: ComparedCap) => string} */
+export function kindWords(state, review, cap) {
+  const { annotation, prediction, iou, cdr, floor } = cap;
+  const isMoved = partnerOf(state, review, cap) !== null;
+  if (annotation && !prediction) return isMoved ? "missed: moved off its prediction" : "missed: the model has no such cap";
+  if (!annotation && prediction) {
+    if (isMoved) return "extra: its cap was moved away";
+    return heirsIn(state.store).get(prediction.id)?.deleted ? "extra: turned down" : "extra: nobody has drawn it";
+  }
+  const centres = cdr === null ? "no mark" : `CDR ${cdr.toFixed(2)} %, floor ${floor?.toFixed(2) ?? "–"} %`;
+  return `${centres}, IoU ${iou?.toFixed(2) ?? "–"}`;
+}
+
+/** Words after a piece of their line. @type {(words: string, colour: string, dash?: string) => HTMLElement} */
+function lineOf(words, colour, dash = "") {
+  const line = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  line.setAttribute("viewBox", "0 0 28 6");
+  line.innerHTML = '<path d="M1 3h26" fill="none" stroke-width="3" />';
+  line.firstElementChild?.setAttribute("stroke", colour);
+  line.firstElementChild?.setAttribute("stroke-dasharray", dash);
+  return element("span", {}, line, document.createTextNode(words));
+}
