@@ -262,7 +262,7 @@ def test_a_random_sample_that_passes_has_the_rest_approved(tmp_path: Path, brows
         for done in range(1, 6):
             tab.press("Shift+Enter")
             say_yes(tab)
-            tab.page.get_by_text(f"{done} of 5 done").wait_for()
+            tab.page.locator(".fr-queue").get_by_text(f"{done} of 5 done").wait_for()
         tab.page.get_by_role("button", name="Approve the other 7").click()
         tab.page.get_by_text("7 images approved.").wait_for()
     finally:
