@@ -35,12 +35,12 @@ def p95_row(
 def row(
     figure: str, value: float, *, unit: str, target: float | None = None, reference: float | None = None
 ) -> Row:
-    """One line; ``ratio`` is the value over the plain reference's, both in the same unit."""
+    """One line; ``ratio`` is the value over the plain reference's, both in the same unit, in three digits."""
     return {
         "figure": figure,
         "value": round(value, 3),
         "unit": unit,
         "target": target,
         "reference": None if reference is None else round(reference, 3),
-        "ratio": None if not reference else round(value / reference, 2),
+        "ratio": None if not reference else float(f"{value / reference:.3g}"),
     }

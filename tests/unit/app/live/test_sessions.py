@@ -179,8 +179,7 @@ def test_a_split_is_stored_shown_in_the_list_and_offered_with_the_tags(port: int
         ada.expect(Show)
         bo.expect(Show)
         ada.send(Tag(image=1, light="side", split="val"))
-        until(lambda: "side · val" in bo.panel.html)
-        assert '<option value="val" selected' in bo.panel.html
+        until(lambda: "side · val" in bo.panel.html and '<option value="val" selected' in bo.panel.html)
         with sqlite3.connect(project.folder / "project.db") as database:
             assert database.execute("SELECT split FROM image WHERE id = 1").fetchone() == ("val",)
         ada.send(Tag(image=1, light="side", split=None))
