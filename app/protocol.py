@@ -251,6 +251,8 @@ class Compared(FromServer, frozen=True, tag="compared"):
 
     image: int
     caps: list[ComparedCap]
+    turned_down: list[Annotation]
+    """What people have deleted of the predictions that match no cap."""
 
 
 class MarkAgain(FromServer, frozen=True, tag="mark_again"):

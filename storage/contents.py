@@ -69,6 +69,14 @@ def load_annotations(connection: Connection, image_id: int) -> list[Annotation]:
     return [annotation_of(row) for row in connection.execute(statement)]
 
 
+def load_turned_down(connection: Connection, image_id: int) -> list[Annotation]:
+    """The deleted annotations of an image that say of a prediction that it is no cap."""
+    statement = SELECT_ANNOTATIONS.where(
+        annotation.c.image == image_id, annotation.c.deleted == 1, annotation.c.prediction.is_not(None)
+    )
+    return [annotation_of(row) for row in connection.execute(statement.order_by(annotation.c.id))]
+
+
 def load_annotation(connection: Connection, uid: str) -> Annotation | None:
     """One annotation, also where it was deleted."""
     row = connection.execute(SELECT_ANNOTATIONS.where(annotation.c.uid == uid)).one_or_none()

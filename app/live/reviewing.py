@@ -12,7 +12,7 @@ from fairyring.app.caps.repeated import Marks, marks_on
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Compared
-from fairyring.storage.contents import load_annotations, load_predictions
+from fairyring.storage.contents import load_annotations, load_predictions, load_turned_down
 from fairyring.storage.images import get_image
 from fairyring.storage.records import Annotation, Image, Prediction, Run
 from fairyring.storage.runs import predictions_by
@@ -32,9 +32,12 @@ async def tell_differences(workspace: Workspace, session: Session, image_id: int
     Raises StoreError where the project has no such image.
     """
     caps = await workspace.read(partial(_load, image_id=image_id, run=session.run_on_photo))
+    deleted = await workspace.read(partial(load_turned_down, image_id=image_id))
     worker = workspace.crew.of_image(image_id)
     found = await anyio.to_thread.run_sync(partial(worker.run, differences_of, *caps))
-    session.send(Compared(image=image_id, caps=found))
+    extra = {cap.prediction.id for cap in found if cap.prediction and not cap.annotation}
+    turned_down = [each for each in deleted if each.cap.prediction in extra]
+    session.send(Compared(image=image_id, caps=found, turned_down=turned_down))
 
 
 def _load(

@@ -43,6 +43,7 @@ export function receiver({ state, sync, reviewing, repeating, liveFit, found, op
         sync.receive(message.outcomes);
         return reviewing.ask();
       case "compared":
+        sync.changed(message.image, message.turned_down);
         return reviewing.take(message);
       case "mark_again":
         return void repeating.take(message);

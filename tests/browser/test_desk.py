@@ -305,13 +305,19 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     (turned_down,) = tab.state("selection")
     tab.press("Delete")
     tab.saved()
-    tab.wait_for("!window.fairyring.state.selection.length")
+    # A page that is loaded anew knows of it, too.
+    tab.page.reload()
+    tab.wait_for("window.fairyring?.state.connection === 'online'")
+    tab.page.get_by_role("tab", name="Review").click()
+    caps.get_by_role("button", name="3 extra").click()
+    caps.get_by_text("Predicted, and not annotated.").wait_for()
     worst.nth(1).click()
     selected(tab, turned_down)
     tab.page.get_by_text("extra: turned down").wait_for()
     tab.press("s")
     tab.saved()
     assert len(tab.state("shapes")) == 6
+    assert tab.page.get_by_role("button", name="Keep mine").count() == 0
     tab.press("Escape", "f", "c")
     # A circle around the cap that Ada drew, which is not selected, is a mark of that cap.
     drag(tab, (400.0, 300.0), (444.0, 300.0))

@@ -90,6 +90,7 @@
  * @property {"compared"} type
  * @property {number} image
  * @property {ComparedCap[]} caps
+ * @property {Annotation[]} turned_down
  */
 
 /**

@@ -48,9 +48,10 @@ export function madeApart(changes, store) {
   });
 }
 
-/** What became of each prediction that somebody has decided upon. @type {(store: Store) => Map<number | null, Shape>} */
+/** What became of each prediction that somebody has decided upon; a live cap rather than one that was deleted. @type {(store: Store) => Map<number | null, Shape>} */
 export function heirsIn(store) {
-  const heirs = store.all().filter(({ cap }) => cap.prediction !== null);
+  const all = store.all().filter(({ cap }) => cap.prediction !== null);
+  const heirs = [...all.filter(({ deleted }) => deleted), ...all.filter(({ deleted }) => !deleted)];
   return new Map(heirs.map((shape) => [shape.cap.prediction, shape]));
 }
 
