@@ -65,6 +65,9 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
         return first_steps(workspace.project)
     match selected_caps(caps, session.selection):
         case []:
+            found = await workspace.read(lambda connection: _shown_besides(connection, caps, session))
+            if found is not None:
+                return prediction_facts(*found)
             said = await workspace.read(lambda connection: verdicts_of(connection, caps.image.id))
             return summary(caps, open_demand(said))
         case [Annotation() as annotation]:
@@ -73,6 +76,18 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
             return prediction_facts(prediction, session.run)
         case several:
             return several_facts(several)
+
+
+def _shown_besides(
+    connection: Connection, caps: ImageCaps, session: Session
+) -> tuple[Prediction, Run | None] | None:
+    """A selected prediction that is not offered: turned down, or of another run than the one on screen."""
+    if len(session.selection.predictions) != 1 or session.selection.annotations:
+        return None
+    found = load_prediction(connection, session.selection.predictions[0])
+    if found is None or found.image != caps.image.id:
+        return None
+    return found, load_run(connection, found.run)
 
 
 async def _background(

@@ -141,8 +141,11 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         shown.content = queue_line(now.queue, now.standing, waiting=now.waiting).html
         end.visible = now.queue is not None
         passed = now.queue is not None and now.standing is not None and has_passed(now.queue, now.standing)
+        begin.label = "Begin another" if now.queue else "Begin"
         if now.queue is None:
             await tell_size()
+        else:
+            size.content = ""
         rest.visible = passed
         if passed and now.queue is not None:
             rest.label = f"Approve the other {len(rest_of(now.queue))}"

@@ -48,7 +48,7 @@ export class Repeating {
           if (!this.#send({ type: "marked_again", id, annotation, mirrored, mark }))
             this.#say("There is no connection; the mark can be taken once it is back.", "warning");
         },
-        () => (this.#open = null),
+        () => this.#closed(id),
       );
       this.#open.close = dialog.close;
     } catch {
@@ -61,6 +61,13 @@ export class Repeating {
   kept(id) {
     if (this.#open?.id !== id) return;
     this.#open.close();
+    // The dialog tells of its end only later, when the next cap may be here already.
+    this.#closed(id);
     if (this.#goOn) this.ask({ quiet: false });
+  }
+
+  /** @type {(id: string) => void} */
+  #closed(id) {
+    if (this.#open?.id === id) this.#open = null;
   }
 }

@@ -314,6 +314,8 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     worst.nth(1).click()
     selected(tab, turned_down)
     tab.page.get_by_text("extra: turned down").wait_for()
+    card = tab.page.get_by_label("Selected cap")
+    card.get_by_text(f"Prediction {turned_down.removeprefix('prediction:')}").wait_for()
     tab.press("s")
     tab.saved()
     assert len(tab.state("shapes")) == 6

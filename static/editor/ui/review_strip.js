@@ -45,6 +45,7 @@ export function countWords({ at, done, total, left }) {
   const differences = total === 1 ? "difference" : "differences";
   if (total === 0) return "No differences";
   if (left.length === 0) return `All ${total} ${differences} decided`;
+  if (at < 0 && done === 0) return `${total} ${differences}`;
   if (at < 0) return `${left.length} of ${total} ${differences} left`;
   return `${done + at + 1} of ${total} ${differences}`;
 }
