@@ -10,6 +10,7 @@ from typing import Literal
 from msgspec import Struct, field
 
 from fairyring.model.geometry.shapes import Circle, Fit, Polygon
+from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_caps import Kind
 from fairyring.storage.image_history import Reversal, Way
 from fairyring.storage.records import (
@@ -95,6 +96,8 @@ class ShowCaps(FromEditor, frozen=True, tag="show_caps"):
     """Asks the panel for caps of all images: the worst, or those that a number counts."""
 
     kind: Kind
+    group: Group | None
+    """Only those of it; None for all."""
 
 
 class AskAgain(FromEditor, frozen=True, tag="ask_again"):

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, get_args
 
 from msgspec import Struct, structs
-from sqlalchemy import ColumnElement, Connection, and_, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, and_, case, delete, func, insert, select, update
 
+from fairyring.storage.cap_groups import Group, is_in
 from fairyring.storage.db.schema import annotation, compared_cap, comparison, image
 
-Kind = Literal["worst", "missed", "extra", "doubtful", "unsure", "ignored"]
+Kind = Literal["worst", "matched", "missed", "extra", "doubtful", "unsure", "ignored"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
@@ -50,6 +51,7 @@ _C = compared_cap.c
 _COUNTS = _C.ignored == 0
 _WHICH: dict[Kind, ColumnElement[bool]] = {
     "worst": _C.cdr.is_not(None),
+    "matched": and_(_C.annotation.is_not(None), _C.prediction.is_not(None)),
     "missed": and_(_COUNTS, _C.prediction.is_(None)),
     "extra": _C.annotation.is_(None),
     "doubtful": and_(_COUNTS, _C.doubtful == 1),
@@ -99,18 +101,32 @@ def scale_floors(
 
 
 def list_caps(
-    connection: Connection, run_id: int, kind: Kind, *, offset: int = 0, limit: int = 12
+    connection: Connection,
+    run_id: int,
+    kind: Kind,
+    *,
+    group: Group | None = None,
+    offset: int = 0,
+    limit: int = 12,
 ) -> list[CapFigures]:
-    """The caps of one kind, of all images that this run is the latest of.
+    """The caps of one kind, of all images that this run is the latest of, or those of a group among them.
 
     Those come first whose CDR passes the floor of their mark by most; where that says nothing, those whose
     outlines overlap least, then by image.
+
+    Args:
+        connection: to read by.
+        run_id: against which run.
+        kind: which caps.
+        group: only those in it; one of a run is of that run, on whatever images.
+        offset: how many to pass over.
+        limit: how many at most.
     """
     excess = _C.cdr - func.coalesce(_C.floor, 0.0)
     rows = connection.execute(
         select(compared_cap)
         .join(image, image.c.id == _C.image)
-        .where(_C.run == run_id, image.c.run == run_id, _WHICH[kind])
+        .where(*_among(run_id, group), _WHICH[kind])
         .order_by(excess.desc().nulls_last(), _C.iou.asc().nulls_last(), image.c.sort_name, _C.sequence)
         .offset(offset)
         .limit(limit)
@@ -129,8 +145,10 @@ def caps_of_image(connection: Connection, run_id: int, image_id: int) -> list[Ca
     return [_figures_of(row) for row in rows]
 
 
-def count_caps(connection: Connection, run_id: int) -> dict[Kind, int]:
-    """How many caps of each kind there are, as counted image by image."""
+def count_caps(connection: Connection, run_id: int, *, group: Group | None = None) -> dict[Kind, int]:
+    """How many caps of each kind there are, as counted image by image, or among those of a group."""
+    if group is not None:
+        return _count_group(connection, run_id, group)
     counted = {kind: comparison.c["measured" if kind == "worst" else kind] for kind in KINDS}
     statement = (
         select(*(func.coalesce(func.sum(column), 0).label(kind) for kind, column in counted.items()))
@@ -139,6 +157,24 @@ def count_caps(connection: Connection, run_id: int) -> dict[Kind, int]:
     )
     row = connection.execute(statement).one()
     return {kind: getattr(row, kind) for kind in KINDS}
+
+
+def _count_group(connection: Connection, run_id: int, group: Group) -> dict[Kind, int]:
+    counted = {kind: func.coalesce(func.sum(case((_WHICH[kind], 1), else_=0)), 0) for kind in KINDS}
+    statement = (
+        select(*(column.label(kind) for kind, column in counted.items()))
+        .select_from(compared_cap.join(image, image.c.id == _C.image))
+        .where(*_among(run_id, group))
+    )
+    row = connection.execute(statement).one()
+    return {kind: getattr(row, kind) for kind in KINDS}
+
+
+def _among(run_id: int, group: Group | None) -> list[ColumnElement[bool]]:
+    if group is not None and group.by == "run":
+        return [is_in(group)]
+    of_run = [_C.run == run_id, image.c.run == run_id]
+    return of_run if group is None else [*of_run, is_in(group)]
 
 
 def _figures_of(row: Any) -> CapFigures:

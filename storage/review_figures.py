@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Any
 
 from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, Row, Select, Subquery, and_, case, func, select
 
+from fairyring.storage.cap_groups import By, column_of
 from fairyring.storage.db.schema import compared_cap, comparison, image
 
-By = Literal["light", "form", "size", "visibility", "shape", "annotator"]
-BY: tuple[By, ...] = get_args(By)
 _C = compared_cap.c
 _SURE = and_(_C.unsure == 0, _C.doubtful == 0)
 _FIGURES: dict[str, ColumnElement[Any]] = {
@@ -70,26 +69,27 @@ def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> T
 
 def totals_among(connection: Connection, run_id: int, images: Select[tuple[int]]) -> Totals:
     """Figures of the images that a query names, against a run that need not be their latest."""
-    c = comparison.c
-    weighted = {
-        name: func.sum(c[column] * c.measured) / func.nullif(func.sum(_counted(c[column])), 0)
-        for name, column in (("cdr", "cdr_mean"), ("floor", "floor_mean"), ("dx", "dx"), ("dy", "dy"))
-    }
-    counts = {
-        name: func.coalesce(func.sum(c[name]), 0) for name in ("measured", "matched", "missed", "extra")
-    }
-    statement = select(*(column.label(name) for name, column in (counts | weighted).items())).where(
-        c.run == run_id, c.image.in_(images)
-    )
+    statement = _of_images().where(comparison.c.run == run_id, comparison.c.image.in_(images))
     return _totals(connection.execute(statement).one())
 
 
-def totals_by(connection: Connection, run_id: int, by: By, *, only_sure: bool = False) -> dict[str, Totals]:
-    """The same of caps of each light, form, size …; those of which it is not known are in none."""
-    column: ColumnElement[Any] = image.c[by] if by in ("light", "form") else _C[by]
-    statement = _of_caps(run_id, only_sure=only_sure).add_columns(column.label("value"))
-    rows = connection.execute(statement.where(column.is_not(None)).group_by(column).order_by(column))
-    return {row.value: _totals(row) for row in rows}
+def totals_by(
+    connection: Connection, run_id: int, by: By, *, only_sure: bool = False
+) -> dict[str | None, Totals]:
+    """The same of caps of each light, form, size …, so that they add up to the whole.
+
+    Those of which it is not known stand under None; nothing is where it is known of none. By run it is all
+    that each run was compared on, under its number.
+    """
+    if by == "run" and not only_sure:
+        statement = _of_images().add_columns(comparison.c.run.label("value")).group_by(comparison.c.run)
+    else:
+        column = column_of(by)
+        of_caps = _of_caps(None if by == "run" else run_id, only_sure=only_sure)
+        statement = of_caps.add_columns(column.label("value")).group_by(column)
+    rows = {row.value: _totals(row) for row in connection.execute(statement)}
+    found = {None if value is None else str(value): of for value, of in rows.items()}
+    return found if {*found} - {None} else {}
 
 
 def sure_figures(run_id: int) -> Subquery:
@@ -131,8 +131,23 @@ def untouched(connection: Connection, *, most: int = 20) -> tuple[int, list[str]
     return count, list(connection.execute(names).scalars())
 
 
-def _of_caps(run_id: int, *, only_sure: bool) -> Select[Any]:
-    wanted = [_C.run == run_id, image.c.run == run_id, _C.ignored == 0, *([_SURE] if only_sure else [])]
+def _of_images() -> Select[Any]:
+    """Figures of all comparisons, from those of their images."""
+    c = comparison.c
+    weighted = {
+        name: func.sum(c[column] * c.measured) / func.nullif(func.sum(_counted(c[column])), 0)
+        for name, column in (("cdr", "cdr_mean"), ("floor", "floor_mean"), ("dx", "dx"), ("dy", "dy"))
+    }
+    counts = {
+        name: func.coalesce(func.sum(c[name]), 0) for name in ("measured", "matched", "missed", "extra")
+    }
+    return select(*(column.label(name) for name, column in (counts | weighted).items()))
+
+
+def _of_caps(run_id: int | None, *, only_sure: bool) -> Select[Any]:
+    """Figures of the caps of the images that a run is the latest of; of all runs and images for None."""
+    of_run = [] if run_id is None else [_C.run == run_id, image.c.run == run_id]
+    wanted = [*of_run, _C.ignored == 0, *([_SURE] if only_sure else [])]
     return (
         select(*(column.label(name) for name, column in _FIGURES.items()))
         .select_from(compared_cap.join(image, image.c.id == _C.image))

@@ -218,8 +218,8 @@ async def _carry_out_for_panel(
     match message:
         case Compare(image=image):
             await tell_differences(workspace, session, image)
-        case ShowCaps(kind=kind):
-            session.gallery = kind
+        case ShowCaps(kind=kind, group=group):
+            session.gallery, session.gallery_group = kind, group
             session.redraw_at_once(("gallery",))
         case Window():
             follow_window(session, message)

@@ -18,6 +18,7 @@ import viser
 from fairyring.app.caps.copies import Copy
 from fairyring.app.caps.image_caps import ImageCaps, caps_of
 from fairyring.app.protocol import FromServer, Notice
+from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_caps import Kind
 from fairyring.storage.images import ImageFilter
 from fairyring.storage.records import Annotation, Image, ImageContents, Run
@@ -69,6 +70,8 @@ class Session:
     """The filter and order of the image list, which decide the next image."""
     gallery: Kind = "worst"
     """Which caps of all images the review shows."""
+    gallery_group: Group | None = None
+    """Only those of this group; None for all."""
     only_sure: bool = False
     """The review's figures leave out doubtful caps and marks that hardly determine a centre."""
     run_on_photo: Run | None = None

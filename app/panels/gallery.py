@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import partial
 
 from sqlalchemy import Connection
@@ -12,16 +13,22 @@ from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.close_up import close_up
+from fairyring.app.panels.counted import counted, of_group
 from fairyring.app.panels.markup import Markup, element
+from fairyring.app.review.groups import NOT_KNOWN, words_of
+from fairyring.storage.cap_groups import By, Group, number_of
 from fairyring.storage.compared_caps import KINDS, CapFigures, Kind, count_caps, list_caps
 from fairyring.storage.contents import load_annotation, load_prediction
+from fairyring.storage.errors import StoreError
 from fairyring.storage.images import get_image
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Annotation, Image, Prediction
+from fairyring.storage.runs import get_run
 
 PAGE = 12
 WORDS: dict[Kind, str] = {
     "worst": "measured",
+    "matched": "matched",
     "missed": "missed",
     "extra": "extra",
     "doubtful": "doubtful",
@@ -30,11 +37,23 @@ WORDS: dict[Kind, str] = {
 }
 ABOUT: dict[Kind, str] = {
     "worst": "CDR / floor of its mark; furthest above its floor first.",
+    "matched": "Annotated and predicted; unmarked ones have no CDR.",
     "missed": "Annotated, and not predicted.",
     "extra": "Predicted, and not annotated.",
     "doubtful": "A careful person could disagree.",
     "unsure": "Their marks hardly determine a centre.",
     "ignored": "They count neither way.",
+}
+
+BY_WORDS: dict[By, str] = {
+    "light": "light",
+    "form": "form",
+    "size": "size",
+    "visibility": "visible share",
+    "shape": "kind of mark",
+    "annotator": "annotator",
+    "image": "image",
+    "run": "run",
 }
 
 
@@ -48,40 +67,69 @@ class Thumbnail:
     prediction: Prediction | None
 
 
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """What the gallery shows."""
+
+    kind: Kind
+    group: Group | None = None
+    """Only caps of this group; None for all images."""
+    name: str = ""
+    """What the group is called."""
+    counts: Mapping[Kind, int] = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
+    page: int = 0
+    thumbnails: Sequence[Thumbnail] = ()
+
+
 def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the gallery of the latest run."""
     gui = session.client.gui
     shown = gui.add_html("")
     pages = gui.add_button_group("Caps", ("‹", "›"), visible=False)
-    page, of_kind = [0], [session.gallery]
+    page, of_those = [0], [(session.gallery, session.gallery_group)]
 
     async def turn() -> None:
         page[0] = max(page[0] + (1 if pages.value == "›" else -1), 0)
         session.refresh("gallery")
 
     async def redraw() -> None:
-        if of_kind[0] != session.gallery:
-            of_kind[0], page[0] = session.gallery, 0
-        find = partial(_find, kind=session.gallery, wanted=page[0])
-        counts, page[0], thumbnails = await workspace.read(find)
-        shown.content = gallery(session.gallery, counts, thumbnails, number=page[0]).html
-        pages.visible = counts[session.gallery] > PAGE
+        kind, group = session.gallery, session.gallery_group
+        if of_those[0] != (kind, group):
+            of_those[0], page[0] = (kind, group), 0
+        found = await workspace.read(partial(_find, kind=kind, group=group, wanted=page[0]))
+        page[0] = found.page
+        shown.content = gallery(found).html
+        pages.visible = found.counts[kind] > PAGE
 
     pages.on_click(person_did(session, turn))
     return redraw
 
 
-def _find(
-    connection: Connection, *, kind: Kind, wanted: int
-) -> tuple[Mapping[Kind, int], int, list[Thumbnail]]:
-    """How many caps of each kind there are; the page asked for, or the last one, with its number."""
+def _find(connection: Connection, *, kind: Kind, group: Group | None, wanted: int) -> Shown:
+    """The page asked for, or the last one."""
     run = latest_run(connection)
     if run is None:
-        return dict.fromkeys(KINDS, 0), 0, []
-    counts = count_caps(connection, run.id)
+        return Shown(kind=kind)
+    counts = count_caps(connection, run.id, group=group)
     page = min(wanted, max(counts[kind] - 1, 0) // PAGE)
-    found = list_caps(connection, run.id, kind, offset=page * PAGE, limit=PAGE)
-    return counts, page, [_thumbnail(connection, each) for each in found]
+    found = list_caps(connection, run.id, kind, group=group, offset=page * PAGE, limit=PAGE)
+    return Shown(
+        kind=kind,
+        group=group,
+        name="" if group is None else _name_of(connection, group),
+        counts=counts,
+        page=page,
+        thumbnails=[_thumbnail(connection, each) for each in found],
+    )
+
+
+def _name_of(connection: Connection, group: Group) -> str:
+    with suppress(StoreError):  # an image may have been taken out meanwhile
+        if group.by == "image":
+            return get_image(connection, number_of(group) or 0).file_name
+        if group.by == "run":
+            return f"run {get_run(connection, number_of(group) or 0).name}"
+    return f"{BY_WORDS[group.by]}: {words_of(group.value or NOT_KNOWN)}"
 
 
 def _thumbnail(connection: Connection, figures: CapFigures) -> Thumbnail:
@@ -90,32 +138,47 @@ def _thumbnail(connection: Connection, figures: CapFigures) -> Thumbnail:
     return Thumbnail(get_image(connection, figures.image), figures, said, guessed)
 
 
-def gallery(kind: Kind, counts: Mapping[Kind, int], thumbnails: list[Thumbnail], *, number: int) -> Markup:
+def gallery(found: Shown) -> Markup:
     """The counts, each leading to what it counts, and a page of close-ups."""
-    if not any(counts.values()):
+    if not any(found.counts.values()) and found.group is None:
         return element("div", class_="fr-review")
-    first = number * PAGE + 1
-    counted = f"{first}–{first + len(thumbnails) - 1} of {counts[kind]}. " if thumbnails else "None. "
+    first = found.page * PAGE + 1
+    last, total = first + len(found.thumbnails) - 1, found.counts[found.kind]
+    counts = f"{first}–{last} of {total}. " if found.thumbnails else "None. "
     return element(
         "div",
         element("h3", "Caps of all images", class_="fr-heading"),
-        element("div", *(_count(each, counts[each], kind) for each in KINDS), class_="fr-kinds"),
-        element("div", *map(_figure, thumbnails), class_="fr-gallery"),
-        element("div", counted + ABOUT[kind], class_="fr-quiet"),
+        _group_line(found),
+        element("div", *(_count(each, found) for each in KINDS), class_="fr-kinds"),
+        element("div", *map(_figure, found.thumbnails), class_="fr-gallery"),
+        element("div", counts + ABOUT[found.kind], class_="fr-quiet"),
         class_="fr-review",
         role="group",
         aria_label="Caps of all images",
     )
 
 
-def _count(kind: Kind, count: int, shown: Kind) -> Markup:
+def _group_line(found: Shown) -> Markup | None:
+    """Of which group the caps are, and a way back to those of all images."""
+    if found.group is None:
+        return None
+    return element(
+        "div",
+        element("span", f"Only {found.name}"),
+        counted(found.kind, "Show all"),
+        class_="fr-line",
+    )
+
+
+def _count(kind: Kind, found: Shown) -> Markup:
     return element(
         "button",
-        f"{count} {WORDS[kind]}",
+        f"{found.counts[kind]} {WORDS[kind]}",
         type="button",
         title=ABOUT[kind],
-        aria_pressed="true" if kind == shown else "false",
+        aria_pressed="true" if kind == found.kind else "false",
         data_fairyring_gallery=kind,
+        **of_group(found.group),
     )
 
 

@@ -44,6 +44,7 @@
 /** @typedef {import("./messages/to_server.js").Window} Window */
 /** @typedef {import("./messages/to_server.js").Compare} Compare */
 /** @typedef {import("./messages/to_server.js").ShowCaps} ShowCaps */
+/** @typedef {import("./messages/to_server.js").Group} Group */
 /** @typedef {import("./messages/to_server.js").FindCap} FindCap */
 /** @typedef {import("./messages/to_server.js").Tag} Tag */
 /** @typedef {import("./messages/to_server.js").Predict} Predict */

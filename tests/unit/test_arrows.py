@@ -37,6 +37,7 @@ DRAWINGS = {
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
         repeats  compared_runs
         change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
+        cap_groups
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

@@ -87,7 +87,14 @@
 /**
  * @typedef {Object} ShowCaps
  * @property {"show_caps"} type
- * @property {"worst" | "missed" | "extra" | "doubtful" | "unsure" | "ignored"} kind
+ * @property {"worst" | "matched" | "missed" | "extra" | "doubtful" | "unsure" | "ignored"} kind
+ * @property {Group | null} group
+ */
+
+/**
+ * @typedef {Object} Group
+ * @property {"light" | "form" | "size" | "visibility" | "shape" | "annotator" | "image" | "run"} by
+ * @property {string | null} value
  */
 
 /**

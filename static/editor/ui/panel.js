@@ -38,7 +38,7 @@ function carryOut(target, { open, perform, use, takeBack, send, compare }) {
   const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool, fairyringRecall, fairyringImage } =
     button.dataset;
   const { fairyringCancel, fairyringPredict, fairyringGallery, fairyringDifferences } = button.dataset;
-  if (isKind(fairyringGallery)) send({ type: "show_caps", kind: fairyringGallery });
+  if (isKind(fairyringGallery)) send({ type: "show_caps", kind: fairyringGallery, group: groupOf(button) });
   if (fairyringDifferences !== undefined) compare();
   if (fairyringCancel) send({ type: "cancel", job: Number(fairyringCancel) });
   if (fairyringPredict) send({ type: "predict", image: Number(fairyringPredict) });
@@ -50,8 +50,17 @@ function carryOut(target, { open, perform, use, takeBack, send, compare }) {
 
 /** @type {(word: string | undefined) => word is import("../protocol.js").ShowCaps["kind"]} */
 function isKind(word) {
-  return ["worst", "missed", "extra", "doubtful", "unsure", "ignored"].includes(word ?? "");
+  return ["worst", "matched", "missed", "extra", "doubtful", "unsure", "ignored"].includes(word ?? "");
 }
+
+/** The group of caps that a button speaks of. @type {(button: HTMLElement) => import("../protocol.js").Group | null} */
+function groupOf({ dataset: { fairyringBy, fairyringValue } }) {
+  const by = GROUPS.find((each) => each === fairyringBy);
+  return by === undefined ? null : { by, value: fairyringValue ?? null };
+}
+
+/** @type {import("../protocol.js").Group["by"][]} */
+const GROUPS = ["light", "form", "size", "visibility", "shape", "annotator", "image", "run"];
 
 /** Which button says which status. @type {Record<string, import("../protocol.js").Status>} */
 const STATUSES = { to_do: "new", annotated: "annotated", approved: "approved" };

@@ -13,6 +13,7 @@ from fairyring.app import protocol as messages
 from fairyring.model.geometry.shapes import Circle, Ellipse, Fit, Polygon
 from fairyring.model.geometry.told_arcs import ToldArc
 from fairyring.storage import records
+from fairyring.storage.cap_groups import Group
 
 MESSAGES = Path(__file__).parents[3] / "static" / "editor" / "messages"
 SOURCE = "\n".join(file.read_text(encoding="utf-8") for file in sorted(MESSAGES.glob("*.js")))
@@ -31,6 +32,7 @@ STRUCTS = (
     Polygon,
     Fit,
     messages.Arc,
+    Group,
     *get_args(messages.Incoming),
     *get_args(messages.Outgoing),
 )

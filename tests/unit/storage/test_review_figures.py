@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from fairyring.storage.compared_caps import CapFigures, count_caps
+from fairyring.storage.cap_groups import BY, By, Group
+from fairyring.storage.compared_caps import KINDS, CapFigures, count_caps, list_caps
 from fairyring.storage.comparisons import Comparison, list_comparisons, store_comparison
 from fairyring.storage.predictions import add_predictions, add_run
 from fairyring.storage.project import Project
-from fairyring.storage.review_figures import BY, shifts, totals, totals_by, untouched
+from fairyring.storage.review_figures import shifts, totals, totals_by, untouched
 
 CAPS = (
     CapFigures(image=1, run=1, annotation="a", prediction=1, cdr=1.0, floor=0.2, dx=3.0, dy=1.0, size="m"),
@@ -54,13 +55,45 @@ def test_totals_are_means_over_caps_with_missed_and_extra_ones_apart(compared: P
     assert (sure.measured, sure.missed, sure.extra) == (1, 1, 1)
 
 
-def test_groups_hold_what_is_known_of_caps_and_images(compared: Project) -> None:
+def test_groups_add_up_to_the_whole_and_what_is_known_of_none_makes_no_group(compared: Project) -> None:
     with compared.read() as connection:
-        by_size = totals_by(connection, 1, "size")
-        assert {by: totals_by(connection, 1, by) for by in BY if by != "size"} == {
-            by: {} for by in BY if by != "size"
-        }
-    assert {name: (of.measured, of.missed) for name, of in by_size.items()} == {"m": (2, 0), "s": (0, 1)}
+        by_size, by_run = totals_by(connection, 1, "size"), totals_by(connection, 1, "run")
+        unknown = [by for by in BY if by not in ("size", "run", "image")]
+        assert {by: totals_by(connection, 1, by) for by in unknown} == {by: {} for by in unknown}
+        assert by_run == {"1": totals(connection, 1)}
+        sure = totals_by(connection, 1, "run", only_sure=True)
+        assert sure == {"1": totals(connection, 1, only_sure=True)}
+    assert {name: (of.measured, of.missed, of.extra) for name, of in by_size.items()} == {
+        "m": (2, 0, 0),
+        "s": (0, 1, 0),
+        None: (0, 0, 1),
+    }
+
+
+@pytest.mark.parametrize(
+    ("by", "value", "found"),
+    [
+        ("size", "m", ["b", "a"]),
+        ("size", "l", []),
+        ("size", None, []),
+        ("image", "1", ["b", "a"]),
+        ("image", "2", []),
+        ("image", "1; --", []),
+        ("run", "1", ["b", "a"]),
+        ("run", "99", []),
+        ("light", None, ["b", "a"]),
+    ],
+)
+def test_caps_of_a_group_are_listed_and_counted_alike(
+    compared: Project, by: By, value: str | None, found: list[str]
+) -> None:
+    group = Group(by=by, value=value)
+    with compared.read() as connection:
+        listed = list_caps(connection, 1, "worst", group=group)
+        assert [each.annotation for each in listed] == found
+        for kind in KINDS:
+            listed = list_caps(connection, 1, kind, group=group, limit=99)
+            assert count_caps(connection, 1, group=group)[kind] == len(listed)
 
 
 def test_images_can_be_listed_without_unsure_marks(compared: Project) -> None:
@@ -73,7 +106,7 @@ def test_images_can_be_listed_without_unsure_marks(compared: Project) -> None:
 def test_every_kind_of_cap_is_counted_ignored_ones_apart(compared: Project) -> None:
     with compared.read() as connection:
         assert count_caps(connection, 1) == {
-            "worst": 2, "missed": 1, "extra": 1, "doubtful": 0, "unsure": 1, "ignored": 1,
+            "worst": 2, "matched": 2, "missed": 1, "extra": 1, "doubtful": 0, "unsure": 1, "ignored": 1,
         }  # fmt: skip
 
 

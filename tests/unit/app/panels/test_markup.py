@@ -11,7 +11,17 @@ from msgspec import structs
 from fairyring.app.jobs.learnt import Learnt
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
-from fairyring.app.panels import beside, desk, gallery, images, jobs, queue, review, status
+from fairyring.app.panels import (
+    beside,
+    desk,
+    gallery,
+    images,
+    jobs,
+    queue,
+    review_found,
+    review_tables,
+    status,
+)
 from fairyring.app.panels import inspector as cap
 from fairyring.app.panels.inspector import Background
 from fairyring.app.panels.learning import learnt_table
@@ -20,6 +30,7 @@ from fairyring.app.panels.several import several_facts
 from fairyring.app.review.queueing import standing_of
 from fairyring.model.evaluate.centres import Pair
 from fairyring.model.geometry.shapes import Circle
+from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_caps import KINDS, CapFigures
 from fairyring.storage.compared_runs import BothRuns, ChangedCap
 from fairyring.storage.comparisons import Comparison, ComparisonRow
@@ -106,6 +117,13 @@ QUEUE = Queue(number=1, user=EVIL, title=EVIL, images=[1])
 THUMBNAIL = gallery.Thumbnail(
     IMAGE, CapFigures(image=1, run=1, annotation=EVIL, prediction=1, cdr=1.0), ANNOTATION, PREDICTION
 )
+SHOWN = gallery.Shown(
+    kind="worst",
+    group=Group(by="annotator", value=EVIL),
+    name=EVIL,
+    counts=dict.fromkeys(KINDS, 1),
+    thumbnails=[THUMBNAIL],
+)
 LEARNT = Learnt(
     name=EVIL, base=EVIL, weights=EVIL, photos=EVIL, held_out=2, before={"AP": 0.5}, after={"AP": 0.6}
 )
@@ -135,7 +153,7 @@ def every_panel() -> dict[str, str]:
     told = Job(id=1, title=EVIL, user=EVIL, state="failed", message=EVIL, link=EVIL)
     running = Job(id=2, title=EVIL, user=EVIL, what=EVIL, total=3)
     listed = ComparisonRow(file_name=EVIL, comparison=FIGURES, stale=True)
-    reviewed = review.Review(
+    reviewed = review_found.Review(
         run=RUN, totals=TOTALS, groups={EVIL: TOTALS}, rows=[listed], total=1, stale=1, untouched=(1, [EVIL])
     )
     return {
@@ -146,8 +164,8 @@ def every_panel() -> dict[str, str]:
         "summary": cap.summary(session().caps, EVIL).html,
         "several": several_facts([ANNOTATION, PREDICTION]).html,
         "learnt": learnt_table(LEARNT).html,
-        "figures": review.review_figures(reviewed).html,
-        "review": review.review_page(reviewed, 1).html,
+        "figures": review_tables.review_figures(reviewed).html,
+        "review": review_tables.review_page(reviewed, 1, review_found.Wanted(by="annotator")).html,
         "jobs": jobs.job_list([told, running]).html,
         "desk": desk.said_of_image([VERDICT]).html,
         "beside": beside.beside_page(
@@ -162,7 +180,7 @@ def every_panel() -> dict[str, str]:
             )
         ).html,
         "queue": queue.queue_line(QUEUE, standing_of(QUEUE, {}), waiting=0).html,
-        "gallery": gallery.gallery("worst", dict.fromkeys(KINDS, 1), [THUMBNAIL], number=0).html,
+        "gallery": gallery.gallery(SHOWN).html,
     }
 
 
@@ -172,7 +190,7 @@ def test_hostile_strings_stay_text_in_every_panel() -> None:
         assert set(page.tags) <= set(HARMLESS_TAGS.split()), name
         assert not [key for key, _ in page.attributes if key.startswith("on")], name
         assert not [value for key, value in page.attributes if key == "src" and value == "x"], name
-        assert EVIL in page.text or name in {"images", "several", "gallery"}, name
+        assert EVIL in page.text or name in {"images", "several"}, name
 
 
 def test_a_simulated_run_is_called_that_plainly() -> None:
@@ -183,10 +201,23 @@ def test_a_simulated_run_is_called_that_plainly() -> None:
 def test_no_cdr_is_shown_without_what_the_marks_are_off_by() -> None:
     figures = structs.replace(FIGURES, floor_mean=0.05)
     listed = ComparisonRow(file_name="bed", comparison=figures, stale=False)
-    reviewed = review.Review(run=RUN, totals=TOTALS, rows=[listed], total=1)
-    figures = read(review.review_figures(reviewed).html)
+    reviewed = review_found.Review(run=RUN, totals=TOTALS, rows=[listed], total=1)
+    figures = read(review_tables.review_figures(reviewed).html)
     assert "floor of marks" in figures.text
     assert "0.050 %" in figures.text
-    page = read(review.review_page(reviewed, 1).html)
+    page = read(review_tables.review_page(reviewed, 1).html)
     titles = [value for key, value in page.attributes if key == "title"]
     assert any("CDR 0.10 % (the marks alone 0.050 %)" in title for title in titles)
+
+
+def test_every_number_of_a_group_leads_to_the_caps_it_is_of() -> None:
+    listed = ComparisonRow(file_name="bed", comparison=FIGURES, stale=False)
+    groups = {"m": structs.replace(TOTALS, missed=7, extra=8), "not_known": TOTALS}
+    reviewed = review_found.Review(run=RUN, totals=TOTALS, groups=groups, rows=[listed], total=1)
+    page = read(review_tables.review_page(reviewed, None, review_found.Wanted(by="size")).html)
+    kinds = [value for key, value in page.attributes if key == "data-fairyring-gallery"]
+    values = [value for key, value in page.attributes if key == "data-fairyring-value"]
+    # Ten numbers of two groups, and two of the image.
+    assert kinds == [*(["worst"] * 3 + ["missed", "extra"]) * 2, "missed", "extra"]
+    assert values == ["m"] * 5 + [str(FIGURES.image)] * 2
+    assert "78" in page.text

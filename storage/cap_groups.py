@@ -1,0 +1,44 @@
+"""What compared caps are grouped by: their kind, whose they are, their image, and the run."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, get_args
+
+from msgspec import Struct
+from sqlalchemy import ColumnElement, false
+
+from fairyring.storage.db.rows import is_number
+from fairyring.storage.db.schema import compared_cap, image
+
+By = Literal["light", "form", "size", "visibility", "shape", "annotator", "image", "run"]
+BY: tuple[By, ...] = get_args(By)
+
+
+class Group(Struct, frozen=True, kw_only=True):
+    """Compared caps that have something in common."""
+
+    by: By
+    value: str | None
+    """None of those of which it is not known; of an image and a run its number."""
+
+
+def column_of(by: By) -> ColumnElement[Any]:
+    """What says to which group a cap belongs; for a query of ``compared_cap`` joined to ``image``."""
+    return image.c[by] if by in ("light", "form") else compared_cap.c[by]
+
+
+def is_in(group: Group) -> ColumnElement[bool]:
+    """Whether a cap belongs to a group."""
+    column = column_of(group.by)
+    if group.value is None:
+        return column.is_(None)
+    if group.by not in ("image", "run"):
+        return column == group.value
+    number = number_of(group)
+    return false() if number is None else column == number
+
+
+def number_of(group: Group) -> int | None:
+    """The number of the image or run that a group is of; None where it is no number."""
+    value = group.value or ""
+    return int(value) if value.isdecimal() and len(value) < 19 and is_number(int(value)) else None
