@@ -57,10 +57,11 @@ def agreement(
     if as_json:
         typer.echo(json.dumps(to_builtins(found)))
         return
-    print_rows(f"{first.name} and {second.name}", _lines(found), as_json=False)
+    print_rows(f"{first.name} and {second.name}", agreement_lines(found), as_json=False)
 
 
-def _lines(found: Agreement) -> list[dict[str, Any]]:
+def agreement_lines(found: Agreement) -> list[dict[str, Any]]:
+    """How far two people agree, line by line."""
     counts = (
         ("matched", found.matched),
         ("only first", found.only_first),

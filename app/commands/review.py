@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.files import write_bytes
+from fairyring.app.commands.agreement import agreement_lines
+from fairyring.app.commands.files import named, write_bytes
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
 
 if TYPE_CHECKING:
     from fairyring.app.review.figures import Review
+    from fairyring.model.evaluate.agreement import Agreement
     from fairyring.storage.project import Project
 
 
@@ -32,6 +34,13 @@ def review(
     against: Annotated[
         str | None, typer.Option(metavar="NAME", help="Another run, put beside it on the images both saw.")
     ] = None,
+    second: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME|COCO.json",
+            help="What another annotator labelled in the same photos: a run, or their file.",
+        ),
+    ] = None,
     images: Annotated[str, typer.Option(metavar="GLOB", help="Only images of these file names.")] = "*",
     sure: Annotated[
         bool, typer.Option("--sure", help="Leave out doubtful caps, and marks that hardly tell a centre.")
@@ -46,6 +55,8 @@ def review(
 
     Example: `fairyring review beds --run after --against before --report review.html`
     """
+    from msgspec import to_builtins
+
     from fairyring.app.review.figures import figures_of
     from fairyring.app.review.two_runs import side_by_side
     from fairyring.storage.project import open_project
@@ -53,9 +64,12 @@ def review(
     wanted = _Wanted(run=run, against=against, images=images, sure=sure)
     with open_project(folder) as project:
         found, before = _reviews(project, wanted)
+        agreement = None if second is None else _agreement(project, second, images)
         if report is not None:
-            _write_report(project, found, report, before)
+            _write_report(project, found, report, before, agreement)
     figures = figures_of(found)
+    if agreement is not None:
+        figures |= {"two_annotators": {"second": agreement[0], **to_builtins(agreement[1])}}
     if before is not None:
         figures |= {"side_by_side": side_by_side(before, found)}
     if as_json:
@@ -65,6 +79,8 @@ def review(
     if before is not None:
         lines.insert(0, _line(f"before: {against}", figures_of(before)))
     print_rows(f"review of {folder}", lines, as_json=False)
+    if agreement is not None:
+        print_rows(f"annotations and {agreement[0]}", agreement_lines(agreement[1]), as_json=False)
     if found.untouched:
         typer.echo(f"{len(found.untouched)} images that nobody has worked on are not counted.", err=True)
 
@@ -100,10 +116,32 @@ def _reviews(project: Project, wanted: _Wanted) -> tuple[Review, Review | None]:
         return found, None
 
 
-def _write_report(project: Project, found: Review, out: Path, before: Review | None) -> None:
+def _agreement(project: Project, second: str, images: str) -> tuple[str, Agreement]:
+    """How far the annotations agree with what another annotator labelled, and what that is called."""
+    from fairyring.app.review.two_annotators import agreement_with_labels, agreement_with_run
+    from fairyring.model.coco.document import read_document
+    from fairyring.storage.runs import require_run
+
+    file = Path(second)
+    if file.is_file():
+        document = read_document(file)
+        with named(file):
+            return file.name, agreement_with_labels(project, document, images=images)
+    with project.read() as connection:
+        run = require_run(connection, second)
+    return run.name, agreement_with_run(project, run, images=images)
+
+
+def _write_report(
+    project: Project,
+    found: Review,
+    out: Path,
+    before: Review | None,
+    second: tuple[str, Agreement] | None,
+) -> None:
     from fairyring.app.report.page import page_of
 
-    write_bytes(page_of(project, found, before=before).encode(), out)
+    write_bytes(page_of(project, found, before=before, second=second).encode(), out)
     typer.echo(f"Wrote {out}", err=True)
 
 

@@ -17,22 +17,31 @@ from fairyring.app.report.pictures import close_ups
 from fairyring.app.report.plots import shifts
 from fairyring.app.report.said import said_table
 from fairyring.app.report.tables import number, percent
+from fairyring.app.report.two_annotators import two_annotators
 from fairyring.app.report.two_runs import two_runs
 from fairyring.app.review.figures import Review, figures_of, worst_caps
 from fairyring.app.review.said import entry_of
 from fairyring.app.review.unmeasured import why_unmeasured
 from fairyring.app.review.what_cdr_is import ABOUT
 from fairyring.app.static_folder import STATIC
+from fairyring.model.evaluate.agreement import Agreement
 from fairyring.storage.project import Project
 
 
-def page_of(project: Project, review: Review, *, before: Review | None = None) -> str:
+def page_of(
+    project: Project,
+    review: Review,
+    *,
+    before: Review | None = None,
+    second: tuple[str, Agreement] | None = None,
+) -> str:
     """The page, which says nothing that a second call would not say again.
 
     Args:
         project: whose photos are shown.
         review: what is reported.
         before: the same images as another run saw them, to be put beside it; None for none.
+        second: what another annotator's version is called, and how far it agrees; None for none.
     """
     figures = figures_of(review)
     page = element(
@@ -49,6 +58,7 @@ def page_of(project: Project, review: Review, *, before: Review | None = None) -
             _totals(figures),
             element("p", ABOUT, class_="quiet"),
             two_runs(before, review) if before is not None else None,
+            two_annotators(*second) if second is not None else None,
             *image_sections(project, review, figures),
             element("h2", "What reviewers said"),
             said_table(review.said, of_one=is_of_one(review)),

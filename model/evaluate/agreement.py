@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -91,20 +91,40 @@ def versions_of(first: Document, second: Document) -> Versions:
     Images are those of the first, paired by name. Raises FairyringError for what is not such a document, and
     where a cap has no id of its own.
     """
-    paged = pages_of(second, truth_of(first, masks=True, centres=True))
-    ours, theirs = _sides(first), _sides(second)
-    found = Versions(pages=paged.pages, both=[], only_first=[], only_second=[])
-    for place, page in enumerate(paged.pages):
-        compared = _compared(page)
-        a = [ours[_known(cap.id)] for cap in page.truths]
-        b = [theirs[_known(cap.id)] for cap in page.predictions]
-        found.both.extend(
-            Both(page=place, first=a[pair.truth], second=b[pair.prediction], pair=pair)
-            for pair in compared.pairs
+    pages = pages_of(second, truth_of(first, masks=True, centres=True)).pages
+    return versions_between(pages, sides_of(first), sides_of(second))
+
+
+def versions_between(pages: list[Page], first: Mapping[Id, Side], second: Mapping[Id, Side]) -> Versions:
+    """Pairs the caps of pages by their outlines; ignored caps, too.
+
+    Args:
+        pages: the first one's caps as truths, the second one's as predictions, each with an id.
+        first: the caps of the first by id.
+        second: those of the second.
+    """
+    found = Versions(pages=pages, both=[], only_first=[], only_second=[])
+    for place, page in enumerate(pages):
+        add_page(
+            found,
+            place,
+            _compared(page),
+            [first[_known(cap.id)] for cap in page.truths],
+            [second[_known(cap.id)] for cap in page.predictions],
         )
-        found.only_first.extend((place, a[number]) for number in compared.missed)
-        found.only_second.extend((place, b[number]) for number in compared.extra)
     return found
+
+
+def add_page(
+    versions: Versions, place: int, compared: Comparison, first: Sequence[Side], second: Sequence[Side]
+) -> None:
+    """Adds the caps of a page, as a comparison pairs those of the first and of the second."""
+    versions.both.extend(
+        Both(page=place, first=first[pair.truth], second=second[pair.prediction], pair=pair)
+        for pair in compared.pairs
+    )
+    versions.only_first.extend((place, first[number]) for number in compared.missed)
+    versions.only_second.extend((place, second[number]) for number in compared.extra)
 
 
 def agreement_of(versions: Versions) -> Agreement:
@@ -150,7 +170,8 @@ def _compared(page: Page) -> Comparison:
     return compare(truths, page.predictions, width=page.width, height=page.height)
 
 
-def _sides(document: Document) -> dict[Id, Side]:
+def sides_of(document: Document) -> dict[Id, Side]:
+    """The caps of a document by id. Raises FairyringError where one has no id of its own."""
     sides: dict[Id, Side] = {}
     for _, where, entry in objects_of("annotation", document.annotations, report=_stop):
         with Reported(where, _stop):

@@ -33,6 +33,8 @@ OFF_PX = 6.0
 """By how much the mark of the first cap of each image is off."""
 FIRST_FIGURES_MS, FILTER_MS, VERDICT_MS = 300, 150, 50
 CLICKS = 20
+PART, PARTS = 50, 4
+"""So many images are decided at a time, and so many times."""
 FIRST = "first figures, from the click on Review on (reference: what History takes)"
 OPENED = "first figures, from the editor's hello on (reference: the list of images)"
 WATCH = r"""
@@ -69,12 +71,13 @@ CLICKED_UNTIL = r"""
 
 def desk_rows(*, quick: bool = False) -> list[Row]:
     """First figures, filtering, verdicts, a reviewer's 50 images, and the server's memory."""
-    count, caps, decided = (6, 5, 3) if quick else (1000, 60, 50)
+    count, caps, decided = (6, 5, 3) if quick else (1000, 60, PART)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
         with _reviewable(Path(folder), count=count, caps=caps) as project:
             rows = [_verdicts(project, Path(folder), count)]
         with served(project.folder) as server, chromium() as browser:
-            return [*rows, *_waiting(browser, server), *_decide(browser, server, decided)]
+            rows += [*_waiting(browser, server), *_decide(browser, server, decided)]
+            return rows if quick else [*rows, *_growth_afterwards(browser, server)]
 
 
 def _reviewable(folder: Path, *, count: int, caps: int) -> Project:
@@ -210,6 +213,24 @@ def _decide(browser: Browser, server: Server, count: int) -> list[Row]:
         row("machine time of an image, key by key", taken / count * 1e3, unit="ms"),
         row("what the server's memory grew by meanwhile", grown, unit="MB"),
     ]
+
+
+def _growth_afterwards(browser: Browser, server: Server) -> list[Row]:
+    """The same reviewer goes on: if the server kept anything of an image, its memory would grow as before."""
+    page = browser.new_page(viewport={"width": 1500, "height": 900})
+    tab = Tab(page)
+    try:
+        tab.enter(server.url, name="Rev")
+        for _ in range((PARTS - 2) * PART):
+            _decide_one(tab)
+        before = server.memory_mb()
+        for _ in range(PART):
+            _decide_one(tab)
+        tab.saved()
+    finally:
+        page.close()
+    figure = f"what it grew by over the last {PART} of {PARTS * PART} images"
+    return [row(figure, server.memory_mb() - before, unit="MB")]
 
 
 def _decide_one(tab: Tab) -> int:
