@@ -171,13 +171,11 @@ def _row(row: ComparisonRow, current: int | None) -> Markup:
     name = element("span", row.file_name, class_="fr-ellipsis", title=row.file_name)
     return element(
         "tr",
-        element("td", name),
+        element("td", element("button", name, type="button", class_="fr-opens")),
         *(element("td", number, class_="fr-number") for number in numbers),
         class_="fr-stale" if row.stale else None,
         title=told,
         aria_current="true" if figures.image == current else None,
-        tabindex=0,
-        role="button",
         **_opens(row),
     )
 

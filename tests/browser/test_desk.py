@@ -368,7 +368,17 @@ def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the
     selected(tab, uid_of(3, 1))
     choose(tab, "Figures by", "annotator")
     groups = tab.page.get_by_role("table", name="Groups of caps")
-    assert groups.get_by_role("row", name="Ada").inner_text().split()[3:] == ["12", "3"]
+    adas = groups.get_by_role("row", name="Ada")
+    assert adas.inner_text().split()[3:] == ["12", "3", "3"]
+    adas.get_by_role("button", name="3", exact=True).first.click()
+    caps = tab.page.get_by_role("group", name="Caps of all images")
+    caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()
+    caps.get_by_text("Only annotator: Ada").wait_for()
+    bed_2 = tab.page.locator("tr:has([data-fairyring-by=image])", has_text="bed_2.png")
+    bed_2.get_by_role("button", name="1", exact=True).last.click()
+    caps.get_by_text("1–1 of 1. Predicted, and not annotated.").wait_for()
+    caps.get_by_role("button", name="Show all").click()
+    caps.get_by_text("1–3 of 3. Predicted, and not annotated.").wait_for()
     with tab.page.expect_download() as kept:
         plot.get_by_role("link", name="CSV").click()
     rows = kept.value.path().read_text().splitlines()

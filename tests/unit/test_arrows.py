@@ -35,7 +35,7 @@ DRAWINGS = {
         statuses  splits  exported_photos
         own_work
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
-        repeats  compared_runs
+        repeats  compared_runs  second_versions
         change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
         cap_groups
         db  cap_validity  open_predictions  originals

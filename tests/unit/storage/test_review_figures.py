@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from msgspec import structs
 
 from fairyring.storage.cap_groups import BY, By, Group
 from fairyring.storage.compared_caps import KINDS, CapFigures, count_caps, list_caps
@@ -10,6 +11,7 @@ from fairyring.storage.comparisons import Comparison, list_comparisons, store_co
 from fairyring.storage.predictions import add_predictions, add_run
 from fairyring.storage.project import Project
 from fairyring.storage.review_figures import shifts, totals, totals_by, untouched
+from fairyring.storage.second_versions import doubts, images_compared
 
 CAPS = (
     CapFigures(image=1, run=1, annotation="a", prediction=1, cdr=1.0, floor=0.2, dx=3.0, dy=1.0, size="m"),
@@ -115,3 +117,12 @@ def test_shifts_are_thinned_out_evenly_and_untouched_images_listed_apart(compare
         assert [each.dx for each in shifts(connection, 1)] == [3.0, 9.0]
         assert len(shifts(connection, 1, most=1)) <= 1
         assert untouched(connection) == (3, ["bed_1.png", "bed_2.png", "bed_10.png"])
+
+
+def test_images_on_which_two_versions_differ_most_stand_first(compared: Project) -> None:
+    better = structs.replace(FIGURES, image=2, missed=0, extra=1, iou_mean=0.9)
+    compared.write(lambda connection: store_comparison(connection, better))
+    with compared.read() as connection:
+        listed = images_compared(connection, 1)
+        assert doubts(connection, 1) == []  # of its predictions none is in the store
+    assert [(each.image, each.missed, each.extra) for each in listed] == [(1, 1, 1), (2, 0, 1)]

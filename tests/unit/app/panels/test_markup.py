@@ -12,6 +12,7 @@ from fairyring.app.jobs.learnt import Learnt
 from fairyring.app.jobs.runner import Job
 from fairyring.app.live.session import Session
 from fairyring.app.panels import (
+    annotators,
     beside,
     desk,
     gallery,
@@ -47,6 +48,7 @@ from fairyring.storage.records import (
     Run,
 )
 from fairyring.storage.review_figures import Totals
+from fairyring.storage.second_versions import SecondVersion
 
 EVIL = "\"'><script>alert(1)</script><img src=x onerror=alert(1)>&lt;"
 HARMLESS_TAGS = (
@@ -117,6 +119,17 @@ QUEUE = Queue(number=1, user=EVIL, title=EVIL, images=[1])
 THUMBNAIL = gallery.Thumbnail(
     IMAGE, CapFigures(image=1, run=1, annotation=EVIL, prediction=1, cdr=1.0), ANNOTATION, PREDICTION
 )
+SECOND = SecondVersion(
+    image=1,
+    file_name=EVIL,
+    matched=1,
+    missed=0,
+    extra=0,
+    measured=1,
+    iou_mean=None,
+    px_mean=None,
+    stale=True,
+)
 SHOWN = gallery.Shown(
     kind="worst",
     group=Group(by="annotator", value=EVIL),
@@ -178,6 +191,9 @@ def every_panel() -> dict[str, str]:
                     ChangedCap(image=1, file_name=EVIL, annotation=EVIL, before=0.1, after=0.2, floor=None)
                 ],
             )
+        ).html,
+        "annotators": annotators.annotators_page(
+            annotators.Both(versions=[EVIL], second=RUN, images=[SECOND], lacking=2), 1
         ).html,
         "queue": queue.queue_line(QUEUE, standing_of(QUEUE, {}), waiting=0).html,
         "gallery": gallery.gallery(SHOWN).html,
