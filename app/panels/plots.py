@@ -26,6 +26,8 @@ from fairyring.storage.predictions import latest_run
 from fairyring.storage.review_figures import Shift, shifts
 
 MOST_IMAGES, MOST_SHIFTS = 2000, 1000
+NUMBERED = ("image", "cap")
+WHOLE_STEPS = tuple(float(times * 10**power) for power in range(6) for times in (1, 2, 5))
 BLUE, ORANGE, GREY = "#3d7ab8", "#c2410c", "#8a8f98"
 
 
@@ -41,7 +43,7 @@ def build(workspace: Workspace, session: Session) -> dict[str, Redraw]:
         )
         of_shifts = _Drawn(
             gui,
-            "Predicted minus marked centre, px; the ellipse holds 95 of 100",
+            "Predicted minus marked centre, px",
             _shift_series(),
             axes=("Δx, px", "Δy, px"),
         )
@@ -77,10 +79,7 @@ class _Drawn:
             nothing,
             series,
             title=title,
-            axes=tuple(
-                uplot.Axis(label=label, size=size, labelSize=16)
-                for label, size in zip(axes, (34, 44), strict=True)
-            ),
+            axes=(_x_axis(axes[0]), uplot.Axis(label=axes[1], size=44, labelSize=16)),
             cursor=uplot.Cursor(drag=uplot.Cursor_Drag(x=False, y=False)),
             aspect=1.5,
             visible=False,
@@ -163,5 +162,8 @@ def _shift_series() -> tuple[uplot.Series, ...]:
     )
 
 
-def _axis(label: str, size: int) -> uplot.Axis:
-    return uplot.Axis(label=label, size=size, labelSize=16)
+def _x_axis(label: str) -> uplot.Axis:
+    """Images and caps are numbered, so between two of them stands nothing."""
+    if label not in NUMBERED:
+        return uplot.Axis(label=label, size=34, labelSize=16)
+    return uplot.Axis(label=label, size=34, labelSize=16, incrs=WHOLE_STEPS)

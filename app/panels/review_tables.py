@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 
 from fairyring.app.addresses import review_address
@@ -116,8 +117,7 @@ def _totals(found: Totals) -> Markup:
 def _groups(review: Review, by: By | None) -> Markup | None:
     if not review.groups or by is None:
         return None
-    titles = ("", "CDR %", "Floor %", "Caps", "Missed", "Extra")
-    head = element("tr", *(element("th", title, class_="fr-number" if title else None) for title in titles))
+    titles = {"": None, "CDR %": 46, "Floor": 40, "Caps": 42, "Missed": 46, "Extra": 38}
     rows = (
         element(
             "tr",
@@ -128,7 +128,7 @@ def _groups(review: Review, by: By | None) -> Markup | None:
     )
     return element(
         "table",
-        element("thead", head),
+        _titles(titles),
         element("tbody", *rows),
         class_="fr-list fr-groups",
         aria_label="Groups of caps",
@@ -148,10 +148,14 @@ def _numbers_of(of: Totals, by: By, value: str) -> list[Markup]:
 
 
 def _head() -> Markup:
-    titles = ("Image", "Mean %", "Floor %", "Worst %", "Missed", "Extra")
+    return _titles({"Image": None, "CDR %": 46, "Floor": 40, "Worst": 42, "Missed": 46, "Extra": 38})
+
+
+def _titles(widths: Mapping[str, int | None]) -> Markup:
+    """A line of titles with the widths of their columns, pixels; the one without a width takes the rest."""
     cells = (
-        element("th", t, class_=None if t == "Image" else "fr-number", width=None if t == "Image" else 50)
-        for t in titles
+        element("th", title, class_="fr-number" if width else None, width=width)
+        for title, width in widths.items()
     )
     return element("thead", element("tr", *cells))
 

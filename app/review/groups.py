@@ -26,13 +26,18 @@ NATURAL: dict[str, tuple[str, ...]] = {
     "form": FORMS,
 }
 """The order that values have by themselves; people, who have none, stand worst first."""
+WORDS = {
+    "95_percent_and_more": "95 % and more",
+    "60_to_95_percent": "60 to 95 %",
+    "under_60_percent": "under 60 %",
+}
 NOT_KNOWN = "not_known"
 """The group of those of which it is not known; it stands last, so that groups add up to the whole."""
 
 
 def words_of(value: str) -> str:
     """A value of a group as people read it."""
-    return value.replace("_", " ")
+    return WORDS.get(value, value.replace("_", " "))
 
 
 def in_order(
