@@ -7,7 +7,8 @@
 
 import { COLOURS } from "../render/palette.js";
 import { heirsIn } from "../state/changes.js";
-import { Standing, partnerOf } from "../state/review.js";
+import { partnerOf } from "../state/deciding.js";
+import { Standing } from "../state/standing.js";
 import { element } from "./dom.js";
 
 /** @typedef {import("../protocol.js").ComparedCap} ComparedCap */

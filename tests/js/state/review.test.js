@@ -2,7 +2,9 @@ import assert from "node:assert/strict";
 import test from "node:test";
 
 import { inverse } from "../../../static/editor/state/changes.js";
-import { Review, Standing, decideOn, lookAt, takePrediction } from "../../../static/editor/state/review.js";
+import { decideOn, takePrediction } from "../../../static/editor/state/deciding.js";
+import { Review } from "../../../static/editor/state/review.js";
+import { Standing, lookAt } from "../../../static/editor/state/standing.js";
 import { deleteSelected, nudge } from "../../../static/editor/state/edits.js";
 import { capOf, prediction, triangle } from "../support/caps.js";
 import { openState, storedShape } from "../support/state.js";

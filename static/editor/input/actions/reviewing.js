@@ -5,7 +5,9 @@
  */
 
 import { changed } from "../../state/changes.js";
-import { Standing, decideOn, lookAt, partnerOf, takePrediction, uidOf } from "../../state/review.js";
+import { decideOn, partnerOf, takePrediction } from "../../state/deciding.js";
+import { uidOf } from "../../state/review.js";
+import { Standing, lookAt } from "../../state/standing.js";
 import { finishAs } from "./image.js";
 
 /** @typedef {import("../../protocol.js").Says} Says */
