@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection, func, select
 
+from fairyring.model.errors import FairyringError
+from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.db.rows import AnySelect, require_image
 from fairyring.storage.db.schema import annotation, change_set, edit, prediction, status_change, verdict
 from fairyring.storage.errors import StoreError
@@ -71,17 +73,13 @@ def has_unseen_changes(connection: Connection, image_id: int, *, user: str) -> b
     given_back = _given_back(connection, image_id)
     changes = _changes(connection, image_id, user=user, after=seen)
     now = stored_annotations(connection, changes)
-    said: list[Outline] | None = None
     for uid, change in changes.items():
         drawn = None if now[uid].deleted else _geometry(now[uid].cap)
         if drawn == change.before:
             continue
         if given_back is not None and change.last > given_back:
             return True
-        if drawn is None:
-            continue
-        said = _said_by_networks(connection, image_id) if said is None else said
-        if drawn[1] is not None or drawn[0] not in said:
+        if drawn is not None and not _is_said_by_network(connection, image_id, drawn):
             return True
     return False
 
@@ -120,9 +118,24 @@ def _geometry(cap: Cap) -> tuple[Outline, Mark | None]:
     return cap.visible, cap.mark
 
 
-def _said_by_networks(connection: Connection, image_id: int) -> list[Outline]:
+def _is_said_by_network(connection: Connection, image_id: int, geometry: tuple[Outline, Mark | None]) -> bool:
+    """Whether a cap is a prediction as it is, or as it was repaired when somebody took it."""
+    visible, mark = geometry
+    if mark is not None:
+        return False
     asked = select(prediction.c.visible).where(prediction.c.image == image_id)
-    return list(connection.execute(asked).scalars())
+    said = list(connection.execute(asked).scalars())
+    if visible in said:
+        return True
+    photo = require_image(connection, image_id)
+    return any(visible == _repaired(each, width=photo.width, height=photo.height) for each in said)
+
+
+def _repaired(outline: Outline, *, width: int, height: int) -> Outline | None:
+    try:
+        return check_cap(Cap(visible=outline), width=width, height=height).visible
+    except FairyringError:
+        return None
 
 
 def _seen_by_others(connection: Connection, image_id: int, *, user: str) -> int:

@@ -135,6 +135,14 @@ def test_a_reviewer_who_takes_the_networks_outline_or_deletes_a_cap_still_approv
     assert status(judge(annotated)) == "approved"
 
 
+def test_an_outline_of_the_network_that_had_to_be_repaired_is_still_the_networks(annotated):
+    crossing = [[10.0, 10.0, 50.0, 50.0, 50.0, 10.0, 10.0, 40.0]]
+    (number,) = predicted(annotated, crossing)
+    taken = one(annotated, "e2", annotation="b", cap=Cap(visible=crossing, prediction=number), user="rev")
+    assert taken.annotation.cap.visible != crossing
+    assert status(judge(annotated)) == "approved"
+
+
 def test_a_reviewer_who_draws_cannot_approve_until_somebody_else_has_looked_at_it(annotated):
     one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev")
     assert "nobody else has looked at it since" in reason(judge(annotated))
