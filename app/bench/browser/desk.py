@@ -71,13 +71,12 @@ CLICKED_UNTIL = r"""
 
 def desk_rows(*, quick: bool = False) -> list[Row]:
     """First figures, filtering, verdicts, a reviewer's 50 images, and the server's memory."""
-    count, caps, decided = (6, 5, 3) if quick else (1000, 60, PART)
+    count, caps, decided = (16, 5, 3) if quick else (1000, 60, PART)
     with tempfile.TemporaryDirectory(prefix="fairyring-bench-") as folder:
         with _reviewable(Path(folder), count=count, caps=caps) as project:
             rows = [_verdicts(project, Path(folder), count)]
         with served(project.folder) as server, chromium() as browser:
-            rows += [*_waiting(browser, server), *_decide(browser, server, decided)]
-            return rows if quick else [*rows, *_growth_afterwards(browser, server)]
+            return [*rows, *_waiting(browser, server), *_decide(browser, server, decided)]
 
 
 def _reviewable(folder: Path, *, count: int, caps: int) -> Project:
@@ -195,42 +194,31 @@ def _choose(tab: Tab, words: str) -> None:
 
 
 def _decide(browser: Browser, server: Server, count: int) -> list[Row]:
-    """A reviewer takes the annotator's where nobody predicted a cap, the model's where a mark is off."""
-    page = browser.new_page(viewport={"width": 1500, "height": 900})
-    tab, inputs = Tab(page), 0
-    try:
-        tab.enter(server.url, name="Rev")
-        before, start = server.memory_mb(), time.perf_counter()
-        for _ in range(count):
-            inputs += _decide_one(tab)
-        tab.saved()
-        taken = time.perf_counter() - start
-    finally:
-        page.close()
-    grown = server.memory_mb() - before
-    return [
-        row(f"inputs for {count} images, two decisions each", inputs, unit="keys"),
-        row("machine time of an image, key by key", taken / count * 1e3, unit="ms"),
-        row("what the server's memory grew by meanwhile", grown, unit="MB"),
-    ]
+    """A reviewer takes the annotator's where nobody predicted a cap, the model's where a mark is off.
 
-
-def _growth_afterwards(browser: Browser, server: Server) -> list[Row]:
-    """The same reviewer goes on: if the server kept anything of an image, its memory would grow as before."""
+    Then they go on, to tell whether the server keeps anything of an image: its memory would grow as before.
+    """
     page = browser.new_page(viewport={"width": 1500, "height": 900})
     tab = Tab(page)
     try:
         tab.enter(server.url, name="Rev")
-        for _ in range((PARTS - 2) * PART):
-            _decide_one(tab)
-        before = server.memory_mb()
-        for _ in range(PART):
-            _decide_one(tab)
+        memory, start = [server.memory_mb()], time.perf_counter()
+        inputs = sum(_decide_one(tab) for _ in range(count))
         tab.saved()
+        taken = time.perf_counter() - start
+        memory.append(server.memory_mb())
+        for _ in range(PARTS - 1):
+            for _ in range(count):
+                _decide_one(tab)
+            memory.append(server.memory_mb())
     finally:
         page.close()
-    figure = f"what it grew by over the last {PART} of {PARTS * PART} images"
-    return [row(figure, server.memory_mb() - before, unit="MB")]
+    return [
+        row(f"inputs for {count} images, two decisions each", inputs, unit="keys"),
+        row("machine time of an image, key by key", taken / count * 1e3, unit="ms"),
+        row("what the server's memory grew by meanwhile", memory[1] - memory[0], unit="MB"),
+        row(f"and over the last {count} of {PARTS * count} images", memory[-1] - memory[-2], unit="MB"),
+    ]
 
 
 def _decide_one(tab: Tab) -> int:
