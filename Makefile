@@ -21,7 +21,7 @@ demo: $(PRODUCT)
 test: $(DEVELOPMENT)
 	@$(BIN)/python -m fairyring.app.bench.browser.chromium
 	$(BIN)/node --test --test-reporter=dot "tests/js/**/*.test.js"
-	$(BIN)/python -m pytest --numprocesses auto --dist loadgroup $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto $(ARGS)
 
 # Kills, full disks, locks, cut lines, and inputs that nobody means: many minutes, and with LONG=1 well over an hour.
 # A short form of it is part of `make test`.

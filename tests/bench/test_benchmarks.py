@@ -20,9 +20,6 @@ from fairyring.app.bench.timing import Row, p95_row, row
 from fairyring.app.commands.benchmarks import commands
 from fairyring.model.contour.methods import METHODS
 
-# Most drive the page, and all measure: no two of them at once, nor beside other tests of the page.
-pytestmark = pytest.mark.xdist_group("page")
-
 HEAVY = {"numpy", "cv2", "sqlalchemy", "viser", "starlette", "torch", "plotly", "rich", "playwright"}
 
 

@@ -18,14 +18,12 @@ MOST_WAIT_MS = 90_000
 """How long a test waits for what is sure to come: half a minute is too short on a busy machine."""
 
 
-@pytest.hookimpl(tryfirst=True)  # before pytest-xdist reads the groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests of the page run one after another, and a failing one is tried once more (docs/decisions/0030)."""
+    """Tries a failing test of the page once more, and says so (docs/decisions/0030)."""
     here = Path(__file__).parent
     for item in items:
         if item.path.is_relative_to(here):
             item.add_marker(pytest.mark.flaky(reruns=1))
-            item.add_marker(pytest.mark.xdist_group("page"))
 
 
 @pytest.fixture(scope="module")
