@@ -4,6 +4,7 @@
  * @module
  */
 
+import DECLARED from "../../commands.js";
 import { changed } from "../../state/changes.js";
 import { decideOn, partnerOf, takePrediction } from "../../state/deciding.js";
 import { uidOf } from "../../state/review.js";
@@ -13,6 +14,7 @@ import { finishAs } from "./image.js";
 /** @typedef {import("../../protocol.js").Says} Says */
 /** @typedef {import("./context.js").Context} Context */
 
+const SENDING_BACK = DECLARED.groups.flatMap(({ commands }) => commands).find(({ name }) => name === "send_back");
 const ALL_DECIDED = "Nothing else differs here.";
 const NONE_SELECTED = "Select a cap that differs first, with “.”.";
 
@@ -68,7 +70,7 @@ export async function approveAndGoOn(context) {
 export async function sendBack(context) {
   const reasons = ["Caps are missing", "Caps that are none", "Outlines are off", "Marks are off"];
   const question = "What is to be done about it?";
-  await say(context, "sent_back", { title: "Send {} back: what is to be done?", question, verb: "Send back", reasons });
+  await say(context, "sent_back", { title: "Send {} back: what is to be done?", question, verb: SENDING_BACK?.label ?? "", reasons });
 }
 
 /** @type {(context: Context) => Promise<void>} */
