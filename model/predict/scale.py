@@ -19,6 +19,10 @@ ENOUGH = 5
 """So many of them tell their size."""
 LOOK = 0.5
 """Of the scale a photo would be read at, for the first look at it: there large caps count, not buds."""
+WEIGHTY = 60.0
+"""The weighty diameter that others are brought to; caps of middling size are about 48 px wide then."""
+FROM_AFAR = 1.15
+"""Caps come out so much too wide in the first look, which misses small ones (on rendered beds)."""
 MOST_LOOKS = 4
 """So often a photo is looked at, each time twice as large, until enough caps are seen."""
 MEASURED = (23.0, 100.0)
@@ -37,20 +41,22 @@ def see_at_its_scale(predictor: Predictor, photo: Pixels, *, diameter: float | N
 
     ``diameter``: how wide its middling caps are, pixels; looked for in the photo where it is not given.
     """
-    return predictor.see(photo, scale=_scale_of(photo, diameter or _weighty_in(predictor, photo)))
+    if diameter is None:
+        return predictor.see(photo, scale=_scale_of(predictor, photo))
+    height, width = photo.shape[:2]
+    return predictor.see(photo, scale=scale_for(diameter, otherwise=first_scale(width, height)))
 
 
 def diameter_in(predictor: Predictor, photo: Pixels) -> float | None:
     """How wide the middling caps of a photo are, pixels, seen as it is read; None if too few are seen."""
-    scale = _scale_of(photo, _weighty_in(predictor, photo))
-    diameters = _look(predictor, photo, scale)
+    diameters = _look(predictor, photo, _scale_of(predictor, photo))
     return None if diameters is None else float(np.median(diameters))
 
 
-def _scale_of(photo: Pixels, diameter: float | None) -> float:
+def _scale_of(predictor: Predictor, photo: Pixels) -> float:
     height, width = photo.shape[:2]
-    first = first_scale(width, height)
-    return scale_for(diameter, otherwise=first) if diameter else first
+    first, weighty = first_scale(width, height), _weighty_in(predictor, photo)
+    return first if weighty is None else scale_for(weighty, otherwise=first, best=WEIGHTY)
 
 
 def _weighty_in(predictor: Predictor, photo: Pixels) -> float | None:
@@ -69,7 +75,7 @@ def _weighty_in(predictor: Predictor, photo: Pixels) -> float | None:
         return None
     weighty = _weighty(diameters)
     if MEASURED[0] <= weighty * scale <= MEASURED[1]:
-        return weighty
+        return weighty / FROM_AFAR
     again = scale * 2 if weighty * scale < MEASURED[0] else BEST / weighty
     diameters = _look(predictor, photo, again)
     return weighty if diameters is None else _weighty(diameters)
