@@ -4,10 +4,15 @@ import os
 from typing import Any
 
 import pytest
+from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
 # As the command does: servers, browsers and networks of tests share the cores. Read when PyTorch is imported.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
+# How long an example takes says more about what else the machine does.
+settings.register_profile("unhurried", deadline=None)
+settings.load_profile("unhurried")
 
 ONE_AFTER_ANOTHER = ("tests/browser/", "tests/bench/")
 """Tests that draw the page or measure: no two of them at once."""

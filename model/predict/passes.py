@@ -56,9 +56,9 @@ def first_scale(width: int, height: int) -> float:
     return min(1.0, FRAME / max(width, height))
 
 
-def scale_for(diameter: float, *, otherwise: float) -> float:
-    """The scale for a photo of middling caps so many pixels wide; ``otherwise`` if that will do."""
-    return otherwise if KNOWN[0] <= diameter * otherwise <= KNOWN[1] else BEST / diameter
+def scale_for(diameter: float, *, otherwise: float, best: float = BEST) -> float:
+    """The scale that makes caps so many pixels wide ``best`` ones; ``otherwise`` if that will do."""
+    return otherwise if KNOWN[0] <= diameter * otherwise <= KNOWN[1] else best / diameter
 
 
 def resized(photo: Pixels, scale: float) -> Pixels:

@@ -66,16 +66,10 @@ class Predictor:
         """``see`` and ``read`` of one photo."""
         return self.read(self.see(photo, scale=scale))
 
-    def see(self, photo: Pixels, *, scale: float = 1.0, seen: Sequence[SeenPiece] = ()) -> Seen:
-        """Runs the network on a photo (height, width, 3) uint8 RGB, brought to a scale; for ``read``.
-
-        ``seen``: what a pass over the photo at this scale, not enlarged, gave already.
-        """
+    def see(self, photo: Pixels, *, scale: float = 1.0) -> Seen:
+        """Runs the network on a photo (height, width, 3) uint8 RGB, brought to a scale; for ``read``."""
         scaled = resized(photo, scale)
-        pieces: list[SeenPiece] = []
-        for nth in self.settings.passes:
-            again = seen if seen and nth.enlarged == 1 else self.go_over(scaled, nth)
-            pieces += [replace(piece, seen_in=nth) for piece in again]
+        pieces = [piece for nth in self.settings.passes for piece in self.go_over(scaled, nth)]
         return Seen(
             width=photo.shape[1],
             height=photo.shape[0],

@@ -162,7 +162,6 @@ def begun(made_once: Path, browsers: list[BrowserSide], folder: Path) -> Iterato
 @settings(
     derandomize=by_form(short=True, usual=False, long=False),
     database=None,
-    deadline=None,
     max_examples=EXAMPLES,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )

@@ -22,7 +22,7 @@ BY_HAND = ("create", "move", "move two", "cross", "remove", "hold", "release", "
 ALONE = (*BY_HAND, "serve", "lose", "break", "reload")
 TOGETHER = (*ALONE, "spoil", "bob changes", "bob deletes", "bob says", "settle")
 
-traced = settings(derandomize=True, database=None, deadline=None, max_examples=40)
+traced = settings(derandomize=True, database=None, max_examples=40)
 
 
 def traces(steps: Iterable[str], *, longest: int) -> st.SearchStrategy[list[Step]]:

@@ -49,6 +49,15 @@ def test_a_photo_of_three_times_the_pixels_is_read_as_it_was(
     assert certain[1] == pytest.approx(certain[0], rel=0.1)
 
 
+@pytest.mark.parametrize(("left", "top"), [(1000, 700), (2000, 1200), (3000, 1700)])
+def test_a_photo_of_a_few_large_caps_is_not_enlarged(
+    predictor: Predictor, bed: tuple[Pixels, float], left: int, top: int
+) -> None:
+    photo, now = bed
+    few = resized(photo, 200 / now)[top : top + 500, left : left + 500]
+    assert see_at_its_scale(predictor, few).scaled[0] <= 500
+
+
 def test_a_width_that_is_given_is_taken(predictor: Predictor, bed: tuple[Pixels, float]) -> None:
     assert see_at_its_scale(predictor, bed[0][:200, :200], diameter=25).scaled == (400, 400)
 

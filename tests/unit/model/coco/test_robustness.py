@@ -69,7 +69,7 @@ images = st.fixed_dictionaries(
     },
 )
 entries = st.lists(annotations, max_size=3)
-ROUNDS = settings(max_examples=60, deadline=None)
+ROUNDS = settings(max_examples=60)
 
 
 def document_with(bad: list[Any], **keys: Any) -> dict[str, Any]:

@@ -78,7 +78,7 @@ beds = st.lists(photos(), min_size=1, max_size=3).filter(lambda pages: any(p.pre
 
 
 @given(pages=beds)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_average_precision_and_recall_are_pycocotools(pages: list[Page]) -> None:
     found, expected = average_precision(pages, by_size=True), reference(pages).eval
 
@@ -94,7 +94,7 @@ def test_average_precision_and_recall_are_pycocotools(pages: list[Page]) -> None
 
 
 @given(pages=beds)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_the_caps_that_count_as_found_are_those_pycocotools_matches(pages: list[Page]) -> None:
     of_photos = [image for image in reference(pages).evalImgs[: len(pages)] if image]
     # Rows: IoU .5, .55, …; 0 where there is no partner.

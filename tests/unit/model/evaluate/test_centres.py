@@ -102,7 +102,7 @@ def test_an_image_without_caps_or_predictions_is_compared_too() -> None:
     places=st.lists(st.tuples(st.integers(0, 150), st.integers(0, 60)), max_size=5),
     guesses=st.lists(st.tuples(st.integers(0, 150), st.integers(0, 60)), max_size=5),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_every_cap_is_paired_or_missed_once(
     places: list[tuple[int, int]], guesses: list[tuple[int, int]]
 ) -> None:

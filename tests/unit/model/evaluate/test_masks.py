@@ -148,7 +148,7 @@ placed = st.builds(cap, st.integers(0, 60), st.integers(0, 30), score=st.sampled
     predictions=st.lists(placed, max_size=5),
     ignored=st.lists(st.builds(cap, st.integers(0, 60), st.just(0), ignored=st.just(True)), max_size=2),
 )
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 def test_the_figures_agree_with_each_other(
     truths: list[CapRecord], predictions: list[CapRecord], ignored: list[CapRecord]
 ) -> None:

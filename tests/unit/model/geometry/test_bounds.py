@@ -43,7 +43,7 @@ def seconds_of(work: Callable[[], Any]) -> float:
 
 
 @given(kind=st.sampled_from(sorted(KINDS)), count=st.integers(4, 20_000), whole=st.booleans())
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 def test_any_polygon_is_checked_and_drawn_within_a_second(kind: str, count: int, whole: bool) -> None:
     points = KINDS[kind](count)
     part = (points.round() if whole else points).ravel().tolist()

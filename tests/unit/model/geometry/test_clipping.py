@@ -100,7 +100,7 @@ places = st.tuples(st.integers(-40, 140), st.integers(-40, 120))
 
 
 @given(st.lists(places, min_size=3, max_size=12))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_the_same_is_covered_as_by_the_outline_within_the_image(vertices: list[tuple[int, int]]) -> None:
     try:
         outline = check_outline([[v for place in vertices for v in place]], width=WIDTH, height=HEIGHT)

@@ -38,7 +38,7 @@ masks = hnp.arrays(np.uint8, st.tuples(st.integers(1, 14), st.integers(1, 14)), 
 @example(mask=RING)
 @example(mask=SLIVERS)
 @example(mask=np.array([[1, 1, 1, 1], [1, 0, 1, 1], [1, 1, 0, 1], [1, 1, 1, 1]], np.uint8))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_an_outline_rasterises_back_to_its_mask(mask: np.ndarray) -> None:
     height, width = mask.shape
     outline = outline_of_mask(mask)
@@ -48,7 +48,7 @@ def test_an_outline_rasterises_back_to_its_mask(mask: np.ndarray) -> None:
 
 
 @given(mask=masks.filter(np.any))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_a_traced_outline_passes_the_check_with_its_mask_unchanged(mask: np.ndarray) -> None:
     height, width = mask.shape
     checked = check_outline(outline_of_mask(mask), width=width, height=height)
@@ -63,7 +63,7 @@ def test_a_traced_outline_passes_the_check_with_its_mask_unchanged(mask: np.ndar
     dx=st.floats(-1, 1),
     dy=st.floats(-1, 1),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_a_smooth_mask_gets_a_smooth_outline_of_its_own_area(
     a: float, ratio: float, theta: float, dx: float, dy: float
 ) -> None:
@@ -116,7 +116,7 @@ def test_a_hole_survives_in_one_part() -> None:
 
 
 @given(mask=masks.filter(np.any), dx=st.integers(0, 7), dy=st.integers(0, 7))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_a_mask_that_moves_by_whole_pixels_takes_its_outline_along(
     mask: np.ndarray, dx: int, dy: int
 ) -> None:

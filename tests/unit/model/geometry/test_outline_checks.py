@@ -123,7 +123,7 @@ def test_a_figure_of_eight_costs_no_more_in_a_larger_image() -> None:
 
 
 @given(points=vertices)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_what_has_passed_passes_again_as_it_is(points: list[tuple[int, int]]) -> None:
     try:
         checked = check_outline([[float(value) for point in points for value in point]], width=31, height=31)
@@ -133,7 +133,7 @@ def test_what_has_passed_passes_again_as_it_is(points: list[tuple[int, int]]) ->
 
 
 @given(points=vertices)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_vertices_stay_or_go_and_new_ones_lie_on_edges_that_cross(points: list[tuple[int, int]]) -> None:
     given_points = np.array(points, float)
     try:

@@ -32,7 +32,7 @@ def test_three_shapes_known_by_heart() -> None:
     assert greatest.tolist() == [[30, 30], [60, 60], [1, 1]]
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(part, max_size=5))
 def test_areas_and_bounds_are_those_of_each(parts: list[list[float]]) -> None:
     rings = rings_of(parts)
@@ -43,7 +43,7 @@ def test_areas_and_bounds_are_those_of_each(parts: list[list[float]]) -> None:
     assert boxes == [list(bounds_of_outline([each])) for each in parts]
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(shape, max_size=5))
 def test_shapes_have_the_vertices_that_each_has(shapes: list) -> None:
     found = parts_of(rings_of_shapes(shapes))

@@ -28,7 +28,7 @@ def turns_by_angles(place: np.ndarray, polygon: np.ndarray) -> int:
 
 
 @given(points=vertices)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_turns_are_the_angles_added_up(points: list[tuple[int, int]]) -> None:
     polygon, places = np.array(points, float), PLACES[::17]
 
@@ -36,7 +36,7 @@ def test_turns_are_the_angles_added_up(points: list[tuple[int, int]]) -> None:
 
 
 @given(points=vertices, rule=st.sampled_from(["nonzero", "evenodd"]))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_parts_cover_what_the_rule_says_once(points: list[tuple[int, int]], rule: FillRule) -> None:
     polygon = np.array(points, float)
     turns = winding_numbers(PLACES, polygon)

@@ -114,7 +114,7 @@ caps = st.lists(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(caps)
 def test_cells_are_those_a_loop_finds(drawn: list[tuple[float, float, int, int]]) -> None:
     """Each cell asks every cap of its scale whether it is touched, and takes the nearest."""

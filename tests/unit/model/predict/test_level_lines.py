@@ -29,7 +29,7 @@ def area_and_centroid(part: list[float]) -> tuple[float, float, float]:
     return abs(cross.sum()) / 2, x, y
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(48, 52), st.floats(48, 52), st.floats(6, 40))
 def test_a_discs_outline_has_its_centre_and_its_size(cx: float, cy: float, r: float) -> None:
     (part,) = outline_of_logits(disc(cx, cy, r), corner=(0, 0))
@@ -38,7 +38,7 @@ def test_a_discs_outline_has_its_centre_and_its_size(cx: float, cy: float, r: fl
     assert math.sqrt(area / math.pi) == pytest.approx(r, abs=0.03)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.floats(48, 52), st.floats(48, 52), st.floats(10, 40))
 def test_no_vertex_is_further_from_the_rim_than_the_tolerance(cx: float, cy: float, r: float) -> None:
     (part,) = outline_of_logits(disc(cx, cy, r), corner=(0, 0))
@@ -117,7 +117,7 @@ def test_logits_of_nought_in_the_middle_of_pixels_do_no_harm() -> None:
     assert bounds_of_outline(outline) == pytest.approx((3.5, 3.5, 5, 5), abs=0.25)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1))
 def test_rough_logits_give_outlines_that_rasterise_to_nearly_what_is_above_nought(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -104,7 +104,7 @@ windows = st.tuples(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(windows, max_size=5), st.integers(0, 1000))
 def test_settling_is_what_loops_make_of_it(drawn: list[tuple[int, int, int, int, float]], seed: int) -> None:
     rng = np.random.default_rng(seed)

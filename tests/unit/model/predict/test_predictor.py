@@ -172,14 +172,6 @@ def test_a_photo_at_another_scale_gives_the_same_caps_in_its_own_pixels(
         assert area_of_outline(after.outline) / 9 == pytest.approx(area_of_outline(before.outline), rel=0.03)
 
 
-def test_what_one_pass_gave_is_not_asked_for_again(predictor: Predictor, learnt: Learnt) -> None:
-    photo = read_rgb(learnt.examples[0].path)
-    pieces = predictor.go_over(photo, Pass())
-    seen = predictor.see(photo, seen=pieces)
-    assert [piece.outputs for piece in seen.pieces] == [piece.outputs for piece in pieces]
-    assert same(predictor.read(seen), predictor.detect(photo))
-
-
 def test_caps_are_taken_from_the_pass_that_is_for_their_size(predictor: Predictor, learnt: Learnt) -> None:
     """The discs are 25, 34, 44 and 50 pixels wide."""
     photo = read_rgb(learnt.examples[0].path)

@@ -11,14 +11,14 @@ from fairyring.model.predict.tiles import LONGEST, OVERLAP, SHORTEST, tiles_of
 extents = st.integers(1, 9000)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(extents, extents, st.floats(0, 1), st.floats(0, 1))
 def test_every_point_of_a_photo_is_one_tiles_own(width: int, height: int, across: float, down: float) -> None:
     x, y = across * width, down * height
     assert sum(tile.owns(x, y) for tile in tiles_of(width, height)) == 1
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(extents, extents)
 def test_seams_belong_to_one_tile(width: int, height: int) -> None:
     tiles = tiles_of(width, height)
@@ -27,7 +27,7 @@ def test_seams_belong_to_one_tile(width: int, height: int) -> None:
             assert sum(tile.owns(x, y) for tile in tiles) == 1
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(extents, extents)
 def test_tiles_lie_in_the_photo_and_are_of_one_size(width: int, height: int) -> None:
     tiles = tiles_of(width, height)
@@ -40,7 +40,7 @@ def test_tiles_lie_in_the_photo_and_are_of_one_size(width: int, height: int) -> 
         assert 0 <= tile.y <= height - tile.height
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(extents, extents, st.tuples(*[st.floats(0.01, 1)] * 3), st.integers(32, OVERLAP))
 def test_a_cap_up_to_the_overlap_is_whole_in_its_own_tile(
     width: int, height: int, shares: tuple[float, float, float], overlap: int

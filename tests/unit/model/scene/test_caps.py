@@ -34,7 +34,7 @@ def test_from_above_a_cap_is_a_circle() -> None:
     np.testing.assert_allclose(cap(tilt_deg=0, toward_deg=0, dome=0.8, base=0.4).outline, 45, rtol=1e-12)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(tilt=st.floats(0, 80), toward=st.floats(0, 360), flat=st.floats(0.3, 1))
 def test_a_tilted_spheroid_is_an_ellipse(tilt: float, toward: float, flat: float) -> None:
     shape = cap(tilt_deg=tilt, toward_deg=toward, dome=flat, base=flat)
@@ -45,7 +45,7 @@ def test_a_tilted_spheroid_is_an_ellipse(tilt: float, toward: float, flat: float
     np.testing.assert_allclose((x / short) ** 2 + (y / 45) ** 2, 1, rtol=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(tilted)
 def test_points_of_the_surface_lie_on_the_spheroid(shape: Cap) -> None:
     surface = surface_of_cap(shape, BOX)
@@ -58,7 +58,7 @@ def test_points_of_the_surface_lie_on_the_spheroid(shape: Cap) -> None:
     np.testing.assert_allclose((out2 + (up / flat) ** 2) / 45**2, 1, atol=0.04)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(tilted)
 def test_normals_are_square_to_the_surface(shape: Cap) -> None:
     surface = surface_of_cap(shape, BOX)
@@ -72,7 +72,7 @@ def test_normals_are_square_to_the_surface(shape: Cap) -> None:
     assert np.quantile(cosine, 0.02) > 0.995
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(tilted)
 def test_the_surface_covers_what_the_polygon_does(shape: Cap) -> None:
     x, y = np.reshape(polygon_of_cap(shape), (-1, 2)).T

@@ -12,7 +12,7 @@ from fairyring.model.scene.view import hang_camera, project, see_ground, turn
 pitches = st.floats(0, 45)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(pitches)
 def test_the_soil_in_the_middle_lies_in_the_middle_at_its_own_size(pitch: float) -> None:
     view = hang_camera(width=640, height=360, pitch_deg=pitch, distance=1.4)
@@ -21,7 +21,7 @@ def test_the_soil_in_the_middle_lies_in_the_middle_at_its_own_size(pitch: float)
     assert (scale[0], z[0]) == pytest.approx((1, 0))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(pitches)
 def test_projecting_the_soil_seen_under_a_pixel_gives_that_pixel_back(pitch: float) -> None:
     view = hang_camera(width=640, height=360, pitch_deg=pitch, distance=1.4)

@@ -28,7 +28,7 @@ augmentations = st.builds(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(augmentations)
 def test_a_centre_moves_exactly_with_its_cap(augmentation: Augmentation) -> None:
     cap = Ellipse(71.3, 64.8, 22.0, 15.0, 30.0)

@@ -80,7 +80,7 @@ def test_an_unturned_crop_is_a_piece_of_the_mirrored_photo_and_of_its_masks(
     assert int((made.ignored != (shown(IGNORED) != 0)).sum()) <= 2
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     st.booleans(),
     st.booleans(),

@@ -11,7 +11,7 @@ from fairyring.model.train.split import split_by_source
 names = st.lists(st.sampled_from([f"photo {n}" for n in range(30)]), min_size=1)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(names)
 def test_copies_of_one_photo_fall_on_one_side(sources: list[str]) -> None:
     sides = split_by_source(sources)
@@ -19,7 +19,7 @@ def test_copies_of_one_photo_fall_on_one_side(sources: list[str]) -> None:
         assert len({side for side, source in zip(sides, sources, strict=True) if source == photo}) == 1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(names)
 def test_the_order_of_the_items_does_not_matter(sources: list[str]) -> None:
     by_photo = dict(zip(sources, split_by_source(sources), strict=True))

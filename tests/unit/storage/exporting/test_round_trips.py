@@ -152,7 +152,7 @@ def written_and_read(stored):
     return [cap.cap for cap in fitted]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(stored=st.lists(caps, min_size=1, max_size=3))
 def test_a_cap_that_is_written_and_read_again_is_the_same(stored):
     """Coordinates to the fourth decimal, the second time exactly; the rest exactly."""

@@ -296,7 +296,7 @@ KEYS = ["id", "image_id", "category_id", "segmentation", "iscrowd", "circle", "e
 KEYS += ["mark", "marked", "amodal_segmentation", "ignore", "doubt", "order", "uid", "segmentation_of"]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(
     annotations=st.lists(st.dictionaries(st.sampled_from(KEYS), anything) | anything, max_size=3),
     images=st.lists(st.dictionaries(st.sampled_from(IMAGE_KEYS), anything) | anything, max_size=2),

@@ -88,7 +88,7 @@ edits = st.builds(
 )
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(sets=st.lists(st.lists(edits, max_size=4), max_size=8))
 def test_any_sequence_of_edits_ends_as_a_simple_model_says(sets, project_of_three, tmp_path_factory):
     folder = shutil.copytree(project_of_three, tmp_path_factory.mktemp("model") / "beds")
