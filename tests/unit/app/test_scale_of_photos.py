@@ -46,7 +46,7 @@ def test_a_photo_of_three_times_the_pixels_is_read_as_it_was(
     assert large.width == 3 * seen.width
     certain = [sum(cap.score > 0.5 for cap in predictor.read(each)) for each in (seen, large)]
     assert certain[0] > 30
-    assert certain[1] == pytest.approx(certain[0], rel=0.1)
+    assert certain[1] == pytest.approx(certain[0], rel=0.15)
 
 
 @pytest.mark.parametrize(("left", "top"), [(1000, 700), (2000, 1200), (3000, 1700)])
