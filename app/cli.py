@@ -18,7 +18,7 @@ from fairyring.app.commands import (
     images,
     imports,
     info,
-    network,
+    predict,
     project,
     review,
     rules,
@@ -26,6 +26,7 @@ from fairyring.app.commands import (
     serve,
     splits,
     synth,
+    train,
 )
 from fairyring.app.commands.ending import Commands
 from fairyring.app.commands.version import print_version
@@ -54,8 +55,8 @@ app.command("backup")(project.backup)
 app.command("restore")(project.restore)
 app.command("demo")(demo.demo)
 app.command("synth")(synth.synth)
-app.command("train")(network.train)
-app.command("predict")(network.predict)
+app.command("train")(train.train)
+app.command("predict")(predict.predict)
 app.command("contour")(contour.contour)
 app.command("priors")(contour.priors)
 app.command("review", epilog=ABOUT)(review.review)

@@ -8,23 +8,17 @@ from pathlib import Path
 
 from msgspec import Struct, field, structs
 
-from fairyring.model.coco.ids import Id
-from fairyring.model.coco.photo_names import meant
 from fairyring.model.errors import FairyringError
-from fairyring.model.json_values import base_name
-from fairyring.model.photo import PhotoError
 from fairyring.model.progress import Progress
 from fairyring.storage.errors import StoreError
 from fairyring.storage.formats.found import FoundCap, FoundImage, Problem
-from fairyring.storage.importing.around import Around
 from fairyring.storage.importing.cap_checks import check_caps
 from fairyring.storage.importing.copies import in_one_split
-from fairyring.storage.importing.photo_index import PhotoIndex, has_size, other_size
-from fairyring.storage.importing.photos import Photo, examine, folders_of, named_apart
+from fairyring.storage.importing.photo_index import PhotoIndex
+from fairyring.storage.importing.photos import Photo, examine, named_apart
 from fairyring.storage.importing.sources import Document, Sources
 from fairyring.storage.importing.split_folders import SplitOf, folders_say_nothing, split_in_name
-from fairyring.storage.importing.within_labels import unpacked_photo
-from fairyring.storage.originals import digest_of_file
+from fairyring.storage.importing.whose_photo import PhotoSearch, photo_of
 from fairyring.storage.records import Status
 
 
@@ -87,10 +81,8 @@ def take_in(
         progress: called once a photo.
     """
     taking = _Taking(
-        index=PhotoIndex(known, folder=folder),
+        search=PhotoSearch(index=PhotoIndex(known, folder=folder), named=sources.named, scratch=scratch),
         problems=list(sources.problems),
-        named=sources.named,
-        scratch=scratch,
         unsaid=unsaid,
         split_of=split_of,
         update=update,
@@ -128,10 +120,8 @@ def _without_path(sentence: str, file: str) -> str:
 class _Taking(Struct, kw_only=True):
     """An intake on its way: photos by their number in the index."""
 
-    index: PhotoIndex
+    search: PhotoSearch
     problems: list[Problem]
-    named: list[Path]
-    scratch: Path | None
     unsaid: Facts
     split_of: SplitOf
     update: bool
@@ -144,14 +134,10 @@ class _Taking(Struct, kw_only=True):
     """How many caps of each file."""
     meant: dict[tuple[Path, int], str] = field(default_factory=dict)
     """Which image of a file a photo is."""
-    numbered: dict[int, set[int]] = field(default_factory=dict)
-    """The photos by the numbers that the files give them, for lists of results."""
-    around: dict[Path, Around] = field(default_factory=dict)
-    """By file of labels."""
 
 
 def _taken(taking: _Taking, sources: Sources) -> Intake:
-    photos = named_apart(taking.index.photos)
+    photos = named_apart(taking.search.index.photos)
     in_others = _in_others(taking, photos)
     settled, in_two = in_one_split(photos, taking.splits, update=taking.update)
     follow = {
@@ -186,21 +172,21 @@ def _in_others(taking: _Taking, photos: Sequence[Photo]) -> set[int]:
 
 def _take_photo(taking: _Taking, path: Path) -> None:
     photo = structs.replace(examine(path), light=taking.unsaid.light, form=taking.unsaid.form)
-    nth = taking.index.add(photo)
+    nth = taking.search.index.add(photo)
     taking.seen.add(nth)
     _note_split(taking, nth, taking.split_of(path))
 
 
 def _take_labels(taking: _Taking, document: Document, image: FoundImage) -> None:
-    nth = _photo_of(taking, document.path, image)
+    nth = photo_of(taking.search, document.path, image)
     own = taking.meant.setdefault((document.path, nth), image.where)
     if own != image.where:
         raise StoreError(
             f"Its photo is taken for that of {own} already; put each into the folder it is called by."
         )
     if image.called is None and image.id is not None:
-        taking.numbered.setdefault(image.id, set()).add(nth)
-    photos = taking.index.photos
+        taking.search.numbered.setdefault(image.id, set()).add(nth)
+    photos = taking.search.index.photos
     if _says_otherwise(photos[nth], image):
         taking.told_otherwise.add(nth)
     photos[nth] = _told_more(photos[nth], image, taking.unsaid, update=taking.update)
@@ -250,74 +236,3 @@ def _told_more(photo: Photo, image: FoundImage, unsaid: Facts, *, update: bool) 
         status=status or photo.status,
         extra=image.extra | photo.extra,
     )
-
-
-def _photo_of(taking: _Taking, document: Path, image: FoundImage) -> int:
-    """The number of the photo that an image of a file is.
-
-    A photo lying around the file decides, where there is one: it is one that is known, or a new one. Else it
-    is the one of that name and size, among several the one from the folders that the file names.
-    """
-    if image.called is not None:
-        return _photo_of_results(taking, image.called)
-    index, name = taking.index, base_name(image.file_name)
-    if document not in taking.around:
-        taking.around[document] = Around(document, taking.named)
-    near = taking.around[document]
-    called = meant(name, index.names, near.names) or name
-    path = near.find(image.file_name, called=called)
-    if path is not None and (nth := _lying_around(index, path, image)) is not None:
-        _require_folder(image, path.absolute().parts[1:-1])
-        return nth
-    nth = index.meant_by(image, called)
-    if nth is not None:
-        _require_folder(image, folders_of(index.photos[nth]))
-        return nth
-    if image.has_photo and taking.scratch is not None:
-        return index.add(unpacked_photo(document, name, scratch=taking.scratch))
-    other = index.names.suggest(name) or near.names.suggest(name)
-    question = f"; if {other} is meant, call it that in this file" if other else ""
-    raise StoreError(
-        f"{name} is neither in the project nor beside this file nor in images/ beside it{question}."
-    )
-
-
-def _require_folder(image: FoundImage, folders: Sequence[str]) -> None:
-    """Raises StoreError where a file has a base name in several folders, and the photo is not from its."""
-    written = image.file_name.split("/")[:-1]
-    if image.one_of_several and written and (not folders or folders[-1] != written[-1]):
-        raise StoreError(
-            f"Several images of this file are called {base_name(image.file_name)}, and the photo that was "
-            f"found is not from a folder {written[-1]}; put each photo into its folder."
-        )
-
-
-def _photo_of_results(taking: _Taking, called: Id) -> int:
-    """The photo that a list of results calls by a number of another file or the project, or by its name."""
-    listed = taking.numbered.get(called, set()) if isinstance(called, int) else set()
-    nth = next(iter(listed)) if len(listed) == 1 else taking.index.numbered(called)
-    if nth is None:
-        raise StoreError(
-            "No image of the project has this number, and no photo this name; import the list of results "
-            "together with the COCO file that lists their images."
-        )
-    return nth
-
-
-def _lying_around(index: PhotoIndex, path: Path, image: FoundImage) -> int | None:
-    """The number of a photo beside a file of labels; None where another of its name is meant."""
-    name = base_name(path.name)
-    nth = index.with_content(name, digest_of_file(path)) if index.called(name) else None
-    if nth is not None and has_size(index.photos[nth], image):
-        return nth
-    try:
-        photo = examine(path)
-    except PhotoError:
-        if index.called(name):
-            return None
-        raise
-    if has_size(photo, image):
-        return index.add(photo)
-    if index.called(name):
-        return None
-    raise other_size(photo, image)

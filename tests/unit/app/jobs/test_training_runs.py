@@ -89,7 +89,7 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_weights_and_to_no_others(
     whole, broken = tmp_path / "whole", tmp_path / "broken"
     assert train(labelled.folder, whole, "--config", recipe).exit_code == 0
     with monkeypatch.context() as patched:
-        patched.setattr("fairyring.app.commands.network.shown_on_stderr", stopping_after(2))
+        patched.setattr("fairyring.app.commands.train.shown_on_stderr", stopping_after(2))
         done = train(labelled.folder, broken, "--config", recipe)
     assert done.exit_code == 130
     assert "--resume" in done.stderr
