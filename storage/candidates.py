@@ -5,7 +5,8 @@ from __future__ import annotations
 from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, and_, func, or_, select
 
-from fairyring.storage.db.schema import change_set, comparison, edit, image, prediction, status_change
+from fairyring.storage.db.comparison_schema import comparison
+from fairyring.storage.db.schema import change_set, edit, image, prediction, status_change
 from fairyring.storage.records import IMPORT
 
 

@@ -10,7 +10,8 @@ from sqlalchemy import ColumnElement, Connection, delete, func, insert, null, se
 
 from fairyring.storage.compared_caps import CapFigures, store_caps
 from fairyring.storage.db.clock import now
-from fairyring.storage.db.schema import comparison, image
+from fairyring.storage.db.comparison_schema import comparison
+from fairyring.storage.db.schema import image
 from fairyring.storage.review_figures import sure_figures
 
 ComparisonSort = Literal["name", "caps", "marked", "missed", "extra", "cdr_mean", "cdr_worst"]
