@@ -141,4 +141,5 @@ def stale_images(connection: Connection, run_id: int) -> list[int]:
 
 
 def _comparison_of(row: Any) -> Comparison:
-    return Comparison(**{name: getattr(row, name) for name in Comparison.__struct_fields__})
+    """Of a row that begins with its fields: by their names a page of 1000 takes twice as long."""
+    return Comparison(**dict(zip(Comparison.__struct_fields__, row, strict=False)))

@@ -103,14 +103,13 @@ def sure_figures(run_id: int) -> Subquery:
 
 def shifts(connection: Connection, run_id: int, *, only_sure: bool = False, most: int = 3000) -> list[Shift]:
     """How measured centres shift; of more than ``most`` caps as many, spread evenly over all of them."""
-    sure = [_C.unsure == 0, _C.doubtful == 0] if only_sure else []
-    wanted = [_C.run == run_id, _C.dx.is_not(None), *sure]
-    measured = connection.execute(select(func.count()).select_from(compared_cap).where(*wanted)).scalar_one()
+    measured = totals(connection, run_id, only_sure=only_sure).measured
     step = max(1, -(-measured // most))
+    sure = [_C.unsure == 0, _C.doubtful == 0] if only_sure else []
     rows = connection.execute(
         select(_C.image, _C.annotation, _C.dx, _C.dy)
         .join(image, image.c.id == _C.image)
-        .where(*wanted, image.c.run == run_id, _C.sequence % step == 0)
+        .where(_C.run == run_id, _C.dx.is_not(None), *sure, image.c.run == run_id, _C.sequence % step == 0)
         .order_by(_C.sequence)
     )
     return [Shift(image=row.image, annotation=row.annotation, dx=row.dx, dy=row.dy) for row in rows]

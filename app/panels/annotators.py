@@ -20,7 +20,7 @@ from fairyring.model.evaluate.agreement import Agreement
 from fairyring.model.evaluate.kappa import Kappa, kappa_of
 from fairyring.storage.compared_runs import lacking_comparison
 from fairyring.storage.records import Run
-from fairyring.storage.runs import images_seen_by, list_runs, require_run
+from fairyring.storage.runs import all_runs, images_seen_by, require_run
 from fairyring.storage.second_versions import SecondVersion, doubts, images_compared
 
 NOBODY = "nobody else"
@@ -89,7 +89,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def _find(connection: Connection, *, image: int | None, second: str | None) -> Both:
-    versions = {row.run.name: row.run for row in reversed(list_runs(connection)) if row.run.kind == "import"}
+    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "import"}
     chosen = versions.get(second or "")
     if chosen is None:
         return Both(versions=list(versions))

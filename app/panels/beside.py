@@ -25,7 +25,7 @@ from fairyring.storage.compared_runs import (
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
 from fairyring.storage.review_figures import Totals
-from fairyring.storage.runs import list_runs, require_run
+from fairyring.storage.runs import all_runs, require_run
 
 NOTHING = "nothing"
 LATEST = "the latest"
@@ -97,7 +97,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 def find_beside(connection: Connection, *, chosen: str | None, against: str | None = None) -> Beside:
     """The figures of the runs of these names (None: the latest one), on the images that both saw."""
-    runs = {row.run.name: row.run for row in reversed(list_runs(connection))}
+    runs = {run.name: run for run in reversed(all_runs(connection))}
     before = runs.get(chosen or "")
     after = latest_run(connection) if against is None else runs.get(against)
     if before is None or after is None or before.id == after.id:

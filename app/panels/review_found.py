@@ -15,7 +15,7 @@ from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_co
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
 from fairyring.storage.review_figures import Totals, totals, totals_by, untouched
-from fairyring.storage.runs import list_runs
+from fairyring.storage.runs import all_runs
 
 PAGE = 10
 ORDERS: dict[str, tuple[ComparisonSort, bool]] = {
@@ -115,4 +115,4 @@ def _groups(connection: Connection, run_id: int, wanted: Wanted) -> dict[str, To
 
 
 def _names_of_runs(connection: Connection, wanted: Wanted) -> dict[str, str]:
-    return {str(row.run.id): row.run.name for row in list_runs(connection)} if wanted.by == "run" else {}
+    return {str(run.id): run.name for run in all_runs(connection)} if wanted.by == "run" else {}
