@@ -1,5 +1,5 @@
 /**
- * What the editor and the server say to each other: the JSON of `app/protocol.py` and `storage/records.py` as JSDoc
+ * What the editor and the server say to each other: the JSON of `app/protocol` and `storage/records.py` as JSDoc
  * types. A test compares the two.
  *
  * @module
