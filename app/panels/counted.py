@@ -24,4 +24,9 @@ def of_group(group: Group | None) -> dict[str, str | float | bool | None]:
     """The attributes that say of which group the caps are that a button shows."""
     if group is None:
         return {}
-    return {"data_fairyring_by": group.by, "data_fairyring_value": group.value}
+    return {
+        "data_fairyring_by": group.by,
+        "data_fairyring_value": group.value,
+        "data_fairyring_of_image": group.image,
+        "data_fairyring_beside": group.beside,
+    }

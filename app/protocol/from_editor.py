@@ -78,6 +78,12 @@ class Compare(FromEditor, frozen=True, tag="compare"):
     image: int
 
 
+class CompareWith(FromEditor, frozen=True, tag="compare_with"):
+    """Has photos compared with this run from now on."""
+
+    run: int
+
+
 class ShowCaps(FromEditor, frozen=True, tag="show_caps"):
     """Asks the panel for caps of all images: the worst, or those that a number counts."""
 
@@ -170,6 +176,7 @@ Incoming = (
     | Cancel
     | FindCap
     | Compare
+    | CompareWith
     | ShowCaps
     | AskAgain
     | MarkedAgain

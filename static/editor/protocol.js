@@ -43,6 +43,7 @@
 /** @typedef {import("./messages/to_server.js").Saving} Saving */
 /** @typedef {import("./messages/to_server.js").Window} Window */
 /** @typedef {import("./messages/to_server.js").Compare} Compare */
+/** @typedef {import("./messages/to_server.js").CompareWith} CompareWith */
 /** @typedef {import("./messages/to_server.js").ShowCaps} ShowCaps */
 /** @typedef {import("./messages/to_server.js").Group} Group */
 /** @typedef {import("./messages/to_server.js").FindCap} FindCap */
