@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,7 +14,7 @@ from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
-from fairyring.app.panels.counted import counted
+from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.review.two_annotators import agreement_on_image
 from fairyring.model.evaluate.agreement import Agreement
@@ -147,7 +147,7 @@ def _figures(found: Both, second: Run, current: int | None) -> Markup:
         ),
         ("kappa of doubtful", "doubtful", _kappa(here.doubtful if here else None), _kappa(found.doubtful)),
     )
-    titles = (f"annotations and {second.name}", "this photo", _counted_images(len(images)))
+    titles = {f"annotations and {second.name}": None, "this photo": 64, _counted_images(len(images)): 64}
     lines = [
         element(
             "tr", *_cells((name, _counted(kind, of_photo, this_photo), _counted(kind, of_all, all_images)))
@@ -170,7 +170,8 @@ def _images(images: Sequence[SecondVersion], second: Run, current: int | None) -
     more = (
         element("div", f"{left_out} images on which they agree better are not listed.") if left_out else None
     )
-    table = _table("Images of two annotators", ("Image", "Missed", "Extra", "IoU", "px"), rows)
+    titles = {"Image": None, "Missed": 48, "Extra": 42, "IoU": 46, "px": 46}
+    table = _table("Images of two annotators", titles, rows)
     return element("div", table, more)
 
 
@@ -195,15 +196,8 @@ def _row_of_image(each: SecondVersion, second: Run, *, is_current: bool) -> Mark
     )
 
 
-def _table(name: str, titles: Sequence[str], rows: Sequence[Markup]) -> Markup:
-    head = (element("th", title, class_="fr-number" if nth else None) for nth, title in enumerate(titles))
-    return element(
-        "table",
-        element("thead", element("tr", *head)),
-        element("tbody", *rows),
-        class_="fr-list",
-        aria_label=name,
-    )
+def _table(name: str, titles: Mapping[str, int | None], rows: Sequence[Markup]) -> Markup:
+    return element("table", titles_of(titles), element("tbody", *rows), class_="fr-list", aria_label=name)
 
 
 def _cells(row: Sequence[Content]) -> list[Markup]:

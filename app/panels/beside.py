@@ -14,7 +14,7 @@ from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
-from fairyring.app.panels.counted import counted
+from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_runs import (
@@ -186,13 +186,9 @@ def _changed(caps: Sequence[ChangedCap], after: Run) -> Markup | None:
         )
         for cap in caps
     )
-    titles = ("Changed most", "before", "after", "floor")
-    head = (
-        element("th", title, class_=None if nth == 0 else "fr-number") for nth, title in enumerate(titles)
-    )
     return element(
         "table",
-        element("thead", element("tr", *head)),
+        titles_of({"Changed most": None, "before": 50, "after": 50, "floor": 50}),
         element("tbody", *rows),
         class_="fr-list",
         aria_label="Caps that changed most",

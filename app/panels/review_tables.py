@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 
 from fairyring.app.addresses import review_address
-from fairyring.app.panels.counted import counted
+from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.review_found import USUAL, Review, Wanted
 from fairyring.app.panels.status import run_badge
@@ -67,7 +66,7 @@ def _reports(current: int | None, wanted: Wanted) -> Markup:
     return element(
         "div",
         *(element("a", words, href=to, target="_blank") for words, to in links.items()),
-        class_="fr-line",
+        class_="fr-links",
     )
 
 
@@ -128,7 +127,7 @@ def _groups(review: Review, by: By | None) -> Markup | None:
     )
     return element(
         "table",
-        _titles(titles),
+        titles_of(titles),
         element("tbody", *rows),
         class_="fr-list fr-groups",
         aria_label="Groups of caps",
@@ -148,16 +147,7 @@ def _numbers_of(of: Totals, by: By, value: str) -> list[Markup]:
 
 
 def _head() -> Markup:
-    return _titles({"Image": None, "CDR %": 46, "Floor": 40, "Worst": 42, "Missed": 46, "Extra": 38})
-
-
-def _titles(widths: Mapping[str, int | None]) -> Markup:
-    """A line of titles with the widths of their columns, pixels; the one without a width takes the rest."""
-    cells = (
-        element("th", title, class_="fr-number" if width else None, width=width)
-        for title, width in widths.items()
-    )
-    return element("thead", element("tr", *cells))
+    return titles_of({"Image": None, "CDR %": 46, "Floor": 40, "Worst": 42, "Missed": 46, "Extra": 38})
 
 
 def _row(row: ComparisonRow, current: int | None) -> Markup:
