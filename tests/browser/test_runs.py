@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from urllib.parse import urljoin
 
 import pytest
 from playwright.sync_api import expect
@@ -128,6 +130,29 @@ def test_every_number_of_two_runs_leads_to_the_caps_that_it_counts_and_draws_tha
     worst.click()
     tab.wait_for("window.fairyring.state.review.caps[0]?.prediction.centre[0] === 92")
     assert tab.state("selection") == ["a"]
+
+
+def test_the_report_is_of_the_run_that_was_chosen_for_the_photo(tab: Tab) -> None:
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two runs side by side", exact=True).click()
+    tab.page.get_by_role("button", name="Bring up to date").click()
+    choose(tab, "On the photo", "old")
+    link = tab.page.get_by_role("link", name="Report of this image against old")
+    of_old = tab.page.request.get(urljoin(tab.page.url, link.get_attribute("href") or ""))
+    of_latest = tab.page.request.get(urljoin(tab.page.url, "/review/report.html?image=1"))
+    pictures = []
+    for report, run, cdr in ((of_old, "old", "1.250"), (of_latest, "new", "0.625")):
+        page = report.text()
+        assert f"Held against the predictions of {run}." in page or f"Held against {run}." in page
+        # 4 and 2 of 320 pixels.
+        assert cdr in page
+        pictures.append(re.findall(r'<img src="(data:[^"]+)" alt="bed.png', page))
+    # Marked contours are the same in both; predicted ones, and both together, are those of the run.
+    (marked_1, predicted_1, both_1), (marked_2, predicted_2, both_2) = (each[:3] for each in pictures)
+    assert marked_1 == marked_2
+    assert predicted_1 != predicted_2
+    assert both_1 != both_2
+    assert tab.page.request.get(urljoin(tab.page.url, "/review/report.html?run=99")).status == 404
 
 
 def test_a_run_that_later_ones_hide_is_exported(tab: Tab) -> None:
