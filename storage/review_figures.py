@@ -61,6 +61,13 @@ def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> T
     return totals_among(connection, run_id, latest)
 
 
+def marked_caps(connection: Connection, run_id: int) -> int:
+    """How many caps of the images that this run is the latest of have a mark that gives a centre."""
+    marked = select(func.coalesce(func.sum(comparison.c.marked), 0))
+    of_run = marked.select_from(comparison.join(image, image.c.id == comparison.c.image))
+    return connection.execute(of_run.where(comparison.c.run == run_id, image.c.run == run_id)).scalar_one()
+
+
 def totals_among(connection: Connection, run_id: int, images: Select[tuple[int]]) -> Totals:
     """Figures of the images that a query names, against a run that need not be their latest."""
     statement = _of_images().where(comparison.c.run == run_id, comparison.c.image.in_(images))

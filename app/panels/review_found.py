@@ -14,7 +14,7 @@ from fairyring.storage.cap_groups import By
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
-from fairyring.storage.review_figures import Totals, totals, totals_by, untouched
+from fairyring.storage.review_figures import Totals, marked_caps, totals, totals_by, untouched
 from fairyring.storage.runs import all_runs
 
 PAGE = 10
@@ -60,6 +60,8 @@ class Review:
 
     run: Run | None
     totals: Totals | None = None
+    marked: int = 0
+    """Caps whose mark gives a centre, on all images."""
     groups: Mapping[str, Totals] = field(default_factory=dict)
     """By value, in the order in which they are shown; runs by their number."""
     names_of_runs: Mapping[str, str] = field(default_factory=dict)
@@ -93,6 +95,7 @@ def find_review(connection: Connection, *, wanted: Wanted) -> Review:
     return Review(
         run=run,
         totals=totals(connection, run.id, only_sure=wanted.only_sure),
+        marked=marked_caps(connection, run.id),
         groups=_groups(connection, run.id, wanted),
         names_of_runs=_names_of_runs(connection, wanted),
         rows=found.rows,

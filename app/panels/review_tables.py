@@ -10,6 +10,7 @@ from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.review_found import USUAL, Review, Wanted
 from fairyring.app.panels.status import run_badge
 from fairyring.app.review.groups import NOT_KNOWN, words_of
+from fairyring.app.review.unmeasured import why_unmeasured
 from fairyring.app.review.what_cdr_is import ABOUT
 from fairyring.storage.cap_groups import By, Group
 from fairyring.storage.comparisons import ComparisonRow
@@ -24,6 +25,7 @@ def review_figures(review: Review) -> Markup:
         "div",
         element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
         _totals(review.totals),
+        _why_unmeasured(review.totals, marked=review.marked),
         element("details", element("summary", "What CDR is"), element("p", ABOUT), class_="fr-quiet"),
         class_="fr-review",
     )
@@ -94,12 +96,20 @@ def _stale_note(stale: int) -> Markup | None:
     )
 
 
+def _why_unmeasured(found: Totals, *, marked: int) -> Markup | None:
+    """Why there are dashes in place of figures."""
+    if found.measured:
+        return None
+    counts = {"matched": found.matched, "missed": found.missed, "extra": found.extra, "marked": marked}
+    return element("p", why_unmeasured(counts), class_="fr-quiet")
+
+
 def _totals(found: Totals) -> Markup:
     shift = "–" if found.dx is None or found.dy is None else f"{found.dx:+.2f}, {found.dy:+.2f}"
     shown = (
-        ("mean CDR", counted("worst", _with_percent(found.cdr))),
-        ("floor of marks", counted("worst", _with_percent(found.floor))),
-        ("Δx, Δy, px", counted("worst", shift)),
+        ("mean CDR", _mean_of_caps(_with_percent(found.cdr))),
+        ("floor of marks", _mean_of_caps(_with_percent(found.floor))),
+        ("Δx, Δy, px", _mean_of_caps(shift)),
         ("measured", counted("worst", found.measured)),
         ("matched", counted("matched", found.matched)),
         ("missed", counted("missed", found.missed)),
@@ -111,6 +121,10 @@ def _totals(found: Totals) -> Markup:
         class_="fr-totals",
         title=ABOUT,
     )
+
+
+def _mean_of_caps(figure: str) -> Content:
+    return figure if figure == "–" else counted("worst", figure)
 
 
 def _groups(review: Review, by: By | None) -> Markup | None:
