@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from msgspec import Struct
-from sqlalchemy import ColumnElement, Connection, and_, func, or_, select
+from sqlalchemy import ColumnElement, Connection, and_, exists, func, or_, select
 
-from fairyring.storage.db.schema import change_set, comparison, edit, image, prediction, status_change
+from fairyring.storage.db.comparison_schema import comparison
+from fairyring.storage.db.schema import change_set, edit, image, prediction, status_change
 from fairyring.storage.records import IMPORT
 
 
@@ -86,7 +87,9 @@ def _condition(annotator: str | None, *, unfinished: bool) -> ColumnElement[bool
     condition = or_(waiting, worked_on) if unfinished else waiting
     if annotator is None:
         return condition
-    return and_(condition, image.c.id.in_(select(edit.c.image).where(edit.c.user == annotator).distinct()))
+    has_edits = exists().where(edit.c.change_set == change_set.c.sequence)
+    theirs = select(change_set.c.image).where(change_set.c.user == annotator, has_edits)
+    return and_(condition, image.c.id.in_(theirs))
 
 
 def count_waiting(connection: Connection) -> int:

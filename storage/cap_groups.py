@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any, Literal, get_args
 
 from msgspec import Struct
-from sqlalchemy import ColumnElement, false
+from sqlalchemy import ColumnElement, Table, and_, false, select
 
+from fairyring.storage.db.comparison_schema import comparison
 from fairyring.storage.db.rows import is_number
-from fairyring.storage.db.schema import compared_cap, image
+from fairyring.storage.db.schema import image
 
 By = Literal["light", "form", "size", "visibility", "shape", "annotator", "image", "run"]
 BY: tuple[By, ...] = get_args(By)
@@ -20,16 +21,41 @@ class Group(Struct, frozen=True, kw_only=True):
     by: By
     value: str | None
     """None of those of which it is not known; of an image and a run its number."""
+    image: int | None = None
+    """Only those of this image."""
+    beside: int | None = None
+    """Only those of images that were compared with this run as well."""
 
 
-def column_of(by: By) -> ColumnElement[Any]:
-    """What says to which group a cap belongs; for a query of ``compared_cap`` joined to ``image``."""
-    return image.c[by] if by in ("light", "form") else compared_cap.c[by]
+def column_of(by: By, table: Table) -> ColumnElement[Any]:
+    """What says to which group a cap belongs.
+
+    Args:
+        by: the kind of group.
+        table: of compared caps, or of their classes; the query joins it to ``image``.
+    """
+    return image.c[by] if by in ("light", "form") else table.c[by]
 
 
-def is_in(group: Group) -> ColumnElement[bool]:
-    """Whether a cap belongs to a group."""
-    column = column_of(group.by)
+def is_in(group: Group, table: Table) -> ColumnElement[bool]:
+    """Whether a compared cap, or a class of them, belongs to a group; ``table`` as for ``column_of``."""
+    among = _of_images(group, table)
+    return and_(_has_value(group, table), *among) if among else _has_value(group, table)
+
+
+def _of_images(group: Group, table: Table) -> list[ColumnElement[bool]]:
+    """What a group says of the images that its caps are on."""
+    found: list[ColumnElement[bool]] = []
+    if group.image is not None:
+        found.append(table.c.image == group.image if is_number(group.image) else false())
+    if group.beside is not None:
+        seen = select(comparison.c.image).where(comparison.c.run == group.beside)
+        found.append(table.c.image.in_(seen) if is_number(group.beside) else false())
+    return found
+
+
+def _has_value(group: Group, table: Table) -> ColumnElement[bool]:
+    column = column_of(group.by, table)
     if group.value is None:
         return column.is_(None)
     if group.by not in ("image", "run"):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from sqlalchemy import Connection, insert, select
+from sqlalchemy import ColumnElement, Connection, insert, select
 
 from fairyring.storage.cap_validity import check_name
-from fairyring.storage.db.schema import change_set
+from fairyring.storage.db.schema import change_set, edit
 from fairyring.storage.records import Edit, StatusEdit, Verdict
 
 
@@ -18,11 +18,11 @@ class ChangeSets:
         self._known: dict[tuple[int, str], int] = {}
         self._unnamed: dict[int, str] = {}
 
-    def number_of(self, edit: Edit | StatusEdit | Verdict, *, time: str) -> int:
+    def number_of(self, made: Edit | StatusEdit | Verdict, *, time: str) -> int:
         """The number of an edit's change set. Edits that name none are together in one an image."""
-        name = edit.change_set or self._unnamed.setdefault(edit.image, edit.id)
-        takes_back = "" if isinstance(edit, Verdict) else edit.takes_back
-        return self.number(edit.image, name, takes_back=takes_back, time=time)
+        name = made.change_set or self._unnamed.setdefault(made.image, made.id)
+        takes_back = "" if isinstance(made, Verdict) else made.takes_back
+        return self.number(made.image, name, takes_back=takes_back, time=time)
 
     def number(self, image: int, name: str, *, takes_back: str = "", time: str) -> int:
         """The number of the change set of this name, made at ``time`` unless it is there already."""
@@ -45,8 +45,16 @@ class ChangeSets:
         return self._connection.execute(entered.returning(change_set.c.sequence)).scalar_one()
 
 
-def check_change_set(edit: Edit | StatusEdit | Verdict) -> None:
+def is_edit_of(image_id: int) -> ColumnElement[bool]:
+    """Whether an edit is of an image.
+
+    The change sets of the image lead to its edits, which hold whole caps and take long to read through.
+    """
+    return edit.c.change_set.in_(select(change_set.c.sequence).where(change_set.c.image == image_id))
+
+
+def check_change_set(made: Edit | StatusEdit | Verdict) -> None:
     """Raises StoreError where what an edit says of change sets cannot be their number."""
-    for name in (edit.change_set, "" if isinstance(edit, Verdict) else edit.takes_back):
+    for name in (made.change_set, "" if isinstance(made, Verdict) else made.takes_back):
         if name:
             check_name(name, "number of a change set")

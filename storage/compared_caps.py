@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal, get_args
 
 from msgspec import Struct, structs
-from sqlalchemy import ColumnElement, Connection, and_, case, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, Table, and_, case, delete, func, insert, select, update
 
 from fairyring.storage.cap_groups import Group, is_in
-from fairyring.storage.db.schema import annotation, compared_cap, comparison, image
+from fairyring.storage.compared_classes import sum_up
+from fairyring.storage.db.comparison_schema import compared_cap, compared_class, comparison
+from fairyring.storage.db.schema import annotation, image
 
 Kind = Literal["worst", "matched", "missed", "extra", "doubtful", "unsure", "ignored"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -47,7 +49,7 @@ class CapFigures(Struct, frozen=True, kw_only=True):
     """It counts neither way, so it is of no other kind."""
 
 
-_C = compared_cap.c
+_C, _S = compared_cap.c, compared_class.c
 _COUNTS = _C.ignored == 0
 _WHICH: dict[Kind, ColumnElement[bool]] = {
     "worst": _C.cdr.is_not(None),
@@ -58,6 +60,16 @@ _WHICH: dict[Kind, ColumnElement[bool]] = {
     "unsure": and_(_COUNTS, _C.unsure == 1),
     "ignored": _C.ignored == 1,
 }
+_HOW_MANY: dict[Kind, ColumnElement[Any]] = {
+    "worst": _S.measured,
+    "matched": _S.matched,
+    "missed": case((_S.ignored == 0, _S.missed), else_=0),
+    "extra": _S.extra,
+    "doubtful": case((and_(_S.ignored == 0, _S.doubtful == 1), _S.caps), else_=0),
+    "unsure": case((and_(_S.ignored == 0, _S.unsure == 1), _S.caps), else_=0),
+    "ignored": case((_S.ignored == 1, _S.caps), else_=0),
+}
+"""How many caps of each kind a class has."""
 
 
 def store_caps(connection: Connection, image_id: int, run_id: int, caps: Sequence[CapFigures]) -> None:
@@ -65,6 +77,11 @@ def store_caps(connection: Connection, image_id: int, run_id: int, caps: Sequenc
     connection.execute(delete(compared_cap).where(_C.image == image_id, _C.run == run_id))
     if caps:
         connection.execute(insert(compared_cap), [structs.asdict(each) for each in caps])
+    sum_up(
+        connection,
+        and_(_C.image == image_id, _C.run == run_id),
+        and_(_S.image == image_id, _S.run == run_id),
+    )
 
 
 def scale_floors(
@@ -96,7 +113,8 @@ def scale_floors(
         .where(_C.image == comparison.c.image, _C.run == comparison.c.run, _C.cdr.is_not(None))
         .scalar_subquery()
     )
-    theirs = select(_C.image).where(_C.annotator == annotator)
+    theirs = select(_C.image).where(_C.annotator == annotator).distinct().scalar_subquery()
+    sum_up(connection, _C.image.in_(theirs), _S.image.in_(theirs))
     connection.execute(update(comparison).where(comparison.c.image.in_(theirs)).values(floor_mean=mean))
 
 
@@ -126,7 +144,7 @@ def list_caps(
     rows = connection.execute(
         select(compared_cap)
         .join(image, image.c.id == _C.image)
-        .where(*_among(run_id, group), _WHICH[kind])
+        .where(*_among(compared_cap, run_id, group), _WHICH[kind])
         .order_by(excess.desc().nulls_last(), _C.iou.asc().nulls_last(), image.c.sort_name, _C.sequence)
         .offset(offset)
         .limit(limit)
@@ -160,21 +178,22 @@ def count_caps(connection: Connection, run_id: int, *, group: Group | None = Non
 
 
 def _count_group(connection: Connection, run_id: int, group: Group) -> dict[Kind, int]:
-    counted = {kind: func.coalesce(func.sum(case((_WHICH[kind], 1), else_=0)), 0) for kind in KINDS}
+    counted = {kind: func.coalesce(func.sum(column), 0) for kind, column in _HOW_MANY.items()}
     statement = (
         select(*(column.label(kind) for kind, column in counted.items()))
-        .select_from(compared_cap.join(image, image.c.id == _C.image))
-        .where(*_among(run_id, group))
+        .select_from(compared_class.join(image, image.c.id == _S.image))
+        .where(*_among(compared_class, run_id, group))
     )
     row = connection.execute(statement).one()
     return {kind: getattr(row, kind) for kind in KINDS}
 
 
-def _among(run_id: int, group: Group | None) -> list[ColumnElement[bool]]:
+def _among(table: Table, run_id: int, group: Group | None) -> list[ColumnElement[bool]]:
+    """Which rows of compared caps, or of their classes, are of a run or a group; joined to ``image``."""
     if group is not None and group.by == "run":
-        return [is_in(group)]
-    of_run = [_C.run == run_id, image.c.run == run_id]
-    return of_run if group is None else [*of_run, is_in(group)]
+        return [is_in(group, table)]
+    of_run = [table.c.run == run_id, image.c.run == run_id]
+    return of_run if group is None else [*of_run, is_in(group, table)]
 
 
 def _figures_of(row: Any) -> CapFigures:

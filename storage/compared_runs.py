@@ -5,7 +5,8 @@ from __future__ import annotations
 from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
-from fairyring.storage.db.schema import compared_cap, comparison, image, prediction
+from fairyring.storage.db.comparison_schema import compared_cap, comparison
+from fairyring.storage.db.schema import image, prediction
 from fairyring.storage.review_figures import Totals, totals_among
 
 

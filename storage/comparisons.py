@@ -10,7 +10,8 @@ from sqlalchemy import ColumnElement, Connection, delete, func, insert, null, se
 
 from fairyring.storage.compared_caps import CapFigures, store_caps
 from fairyring.storage.db.clock import now
-from fairyring.storage.db.schema import comparison, image
+from fairyring.storage.db.comparison_schema import comparison
+from fairyring.storage.db.schema import image
 from fairyring.storage.review_figures import sure_figures
 
 ComparisonSort = Literal["name", "caps", "marked", "missed", "extra", "cdr_mean", "cdr_worst"]
@@ -140,4 +141,5 @@ def stale_images(connection: Connection, run_id: int) -> list[int]:
 
 
 def _comparison_of(row: Any) -> Comparison:
-    return Comparison(**{name: getattr(row, name) for name in Comparison.__struct_fields__})
+    """Of a row that begins with its fields: by their names a page of 1000 takes twice as long."""
+    return Comparison(**dict(zip(Comparison.__struct_fields__, row, strict=False)))

@@ -10,8 +10,9 @@ from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, and_, case, func, or_, select, update
 
 from fairyring.model.light_and_form import FORMS, LIGHTS
+from fairyring.storage.db.comparison_schema import comparison
 from fairyring.storage.db.rows import AnyRow, AnySelect, image_of, require_image
-from fairyring.storage.db.schema import comparison, image, prediction, verdict
+from fairyring.storage.db.schema import image, prediction, verdict
 from fairyring.storage.errors import StoreError
 from fairyring.storage.records import Image, Says, Status
 

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, func, select
 
 from fairyring.model.errors import FairyringError
 from fairyring.storage.cap_validity import check_cap
+from fairyring.storage.change_sets import is_edit_of
 from fairyring.storage.db.rows import AnySelect, require_image
 from fairyring.storage.db.schema import annotation, change_set, edit, prediction, status_change, verdict
 from fairyring.storage.errors import StoreError
@@ -54,7 +55,7 @@ def workers_on(connection: Connection, image_id: int) -> set[str]:
     What was taken back is nobody's work.
     """
     calls = connection.execute(_calls(image_id)).all()
-    worked = select(edit.c.user, edit.c.change_set).where(edit.c.image == image_id).distinct()
+    worked = select(edit.c.user, edit.c.change_set).where(is_edit_of(image_id)).distinct()
     if calls:
         worked = worked.where(edit.c.change_set < calls[0].change_set)
     standing = _standing(connection, image_id)
@@ -100,7 +101,7 @@ def _changes(connection: Connection, image_id: int, *, user: str, after: int) ->
         select(edit.c.annotation, edit.c.before, edit.c.change_set)
         .join(annotation, annotation.c.uid == edit.c.annotation)
         .where(
-            edit.c.image == image_id,
+            is_edit_of(image_id),
             edit.c.user == user,
             edit.c.change_set > after,
             annotation.c.edited_by == user,

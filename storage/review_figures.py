@@ -8,22 +8,16 @@ from msgspec import Struct
 from sqlalchemy import ColumnElement, Connection, Row, Select, Subquery, and_, case, func, select
 
 from fairyring.storage.cap_groups import By, column_of
-from fairyring.storage.db.schema import compared_cap, comparison, image
+from fairyring.storage.db.comparison_schema import compared_cap, compared_class, comparison
+from fairyring.storage.db.schema import image
 
-_C = compared_cap.c
-_SURE = and_(_C.unsure == 0, _C.doubtful == 0)
-_FIGURES: dict[str, ColumnElement[Any]] = {
-    "measured": func.count(_C.cdr),
-    "matched": func.coalesce(
-        func.sum(case((and_(_C.annotation.is_not(None), _C.prediction.is_not(None)), 1), else_=0)), 0
-    ),
-    "missed": func.coalesce(func.sum(case((_C.prediction.is_(None), 1), else_=0)), 0),
-    "extra": func.coalesce(func.sum(case((_C.annotation.is_(None), 1), else_=0)), 0),
-    "cdr": func.avg(_C.cdr),
-    "floor": func.avg(case((_C.cdr.is_not(None), _C.floor))),
-    "dx": func.avg(_C.dx),
-    "dy": func.avg(_C.dy),
+_C, _S = compared_cap.c, compared_class.c
+_COUNTED = {name: func.coalesce(func.sum(_S[name]), 0) for name in ("measured", "matched", "missed", "extra")}
+_MEANS: dict[str, ColumnElement[Any]] = {
+    name: func.sum(_S[name]) / func.nullif(func.sum(_S[count]), 0)
+    for name, count in (("cdr", "measured"), ("floor", "floors"), ("dx", "measured"), ("dy", "measured"))
 }
+_FIGURES = _COUNTED | _MEANS
 
 
 class Totals(Struct, frozen=True, kw_only=True):
@@ -61,10 +55,17 @@ def totals(connection: Connection, run_id: int, *, only_sure: bool = False) -> T
         only_sure: without doubtful caps and marks that hardly determine a centre.
     """
     if only_sure:
-        (found,) = [_totals(row) for row in connection.execute(_of_caps(run_id, only_sure=True))]
+        (found,) = [_totals(row) for row in connection.execute(_of_classes(run_id, only_sure=True))]
         return found
     latest = select(image.c.id).where(image.c.run == run_id)
     return totals_among(connection, run_id, latest)
+
+
+def marked_caps(connection: Connection, run_id: int) -> int:
+    """How many caps of the images that this run is the latest of have a mark that gives a centre."""
+    marked = select(func.coalesce(func.sum(comparison.c.marked), 0))
+    of_run = marked.select_from(comparison.join(image, image.c.id == comparison.c.image))
+    return connection.execute(of_run.where(comparison.c.run == run_id, image.c.run == run_id)).scalar_one()
 
 
 def totals_among(connection: Connection, run_id: int, images: Select[tuple[int]]) -> Totals:
@@ -84,9 +85,9 @@ def totals_by(
     if by == "run" and not only_sure:
         statement = _of_images().add_columns(comparison.c.run.label("value")).group_by(comparison.c.run)
     else:
-        column = column_of(by)
-        of_caps = _of_caps(None if by == "run" else run_id, only_sure=only_sure)
-        statement = of_caps.add_columns(column.label("value")).group_by(column)
+        column = column_of(by, compared_class)
+        of_classes = _of_classes(None if by == "run" else run_id, only_sure=only_sure)
+        statement = of_classes.add_columns(column.label("value")).group_by(column)
     rows = {row.value: _totals(row) for row in connection.execute(statement)}
     found = {None if value is None else str(value): of for value, of in rows.items()}
     return found if {*found} - {None} else {}
@@ -95,29 +96,27 @@ def totals_by(
 def sure_figures(run_id: int) -> Subquery:
     """The figures of each image without doubtful caps and unsure marks, named as those of a comparison."""
     figures = _FIGURES | {
-        "caps": func.count(_C.annotation),
-        "marked": func.count(_C.own_floor),
         "cdr_mean": _FIGURES["cdr"],
-        "cdr_worst": func.max(_C.cdr),
+        "cdr_worst": func.max(_S.cdr_worst),
         "floor_mean": _FIGURES["floor"],
     }
     return (
-        select(_C.image, *(column.label(name) for name, column in figures.items()))
-        .where(_C.run == run_id, _C.ignored == 0, _SURE)
-        .group_by(_C.image)
+        select(_S.image, *(column.label(name) for name, column in figures.items()))
+        .where(_S.run == run_id, *_counting(only_sure=True))
+        .group_by(_S.image)
         .subquery("sure")
     )
 
 
 def shifts(connection: Connection, run_id: int, *, only_sure: bool = False, most: int = 3000) -> list[Shift]:
     """How measured centres shift; of more than ``most`` caps as many, spread evenly over all of them."""
-    wanted = [_C.run == run_id, _C.dx.is_not(None), *([_SURE] if only_sure else [])]
-    measured = connection.execute(select(func.count()).select_from(compared_cap).where(*wanted)).scalar_one()
+    measured = totals(connection, run_id, only_sure=only_sure).measured
     step = max(1, -(-measured // most))
+    sure = [_C.unsure == 0, _C.doubtful == 0] if only_sure else []
     rows = connection.execute(
         select(_C.image, _C.annotation, _C.dx, _C.dy)
         .join(image, image.c.id == _C.image)
-        .where(*wanted, image.c.run == run_id, _C.sequence % step == 0)
+        .where(_C.run == run_id, _C.dx.is_not(None), *sure, image.c.run == run_id, _C.sequence % step == 0)
         .order_by(_C.sequence)
     )
     return [Shift(image=row.image, annotation=row.annotation, dx=row.dx, dy=row.dy) for row in rows]
@@ -144,15 +143,19 @@ def _of_images() -> Select[Any]:
     return select(*(column.label(name) for name, column in (counts | weighted).items()))
 
 
-def _of_caps(run_id: int | None, *, only_sure: bool) -> Select[Any]:
+def _of_classes(run_id: int | None, *, only_sure: bool) -> Select[Any]:
     """Figures of the caps of the images that a run is the latest of; of all runs and images for None."""
-    of_run = [] if run_id is None else [_C.run == run_id, image.c.run == run_id]
-    wanted = [*of_run, _C.ignored == 0, *([_SURE] if only_sure else [])]
+    of_run = [] if run_id is None else [_S.run == run_id, image.c.run == run_id]
     return (
         select(*(column.label(name) for name, column in _FIGURES.items()))
-        .select_from(compared_cap.join(image, image.c.id == _C.image))
-        .where(*wanted)
+        .select_from(compared_class.join(image, image.c.id == _S.image))
+        .where(*of_run, *_counting(only_sure=only_sure))
     )
+
+
+def _counting(*, only_sure: bool) -> list[ColumnElement[bool]]:
+    sure = [_S.unsure == 0, _S.doubtful == 0] if only_sure else []
+    return [_S.ignored == 0, *sure]
 
 
 def _counted(column: ColumnElement[Any]) -> ColumnElement[Any]:

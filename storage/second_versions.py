@@ -6,7 +6,8 @@ from msgspec import Struct
 from sqlalchemy import Connection, select
 
 from fairyring.model.coco.annotations import is_doubtful
-from fairyring.storage.db.schema import compared_cap, comparison, image, prediction
+from fairyring.storage.db.comparison_schema import compared_cap, comparison
+from fairyring.storage.db.schema import image, prediction
 
 
 class SecondVersion(Struct, frozen=True, kw_only=True):

@@ -10,7 +10,7 @@ from sqlalchemy import Connection, insert, select, update
 
 from fairyring.model.errors import FairyringError
 from fairyring.storage.cap_validity import check_name
-from fairyring.storage.change_sets import ChangeSets, check_change_set
+from fairyring.storage.change_sets import ChangeSets, check_change_set, is_edit_of
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.rows import image_of, require_image
 from fairyring.storage.db.schema import edit, image, status_change
@@ -99,7 +99,7 @@ def _is_as_approved(connection: Connection, image_id: int) -> bool:
     first = connection.execute(reopened.limit(1)).scalar_one()
     since = (
         select(edit.c.annotation, edit.c.before)
-        .where(edit.c.sequence >= first, edit.c.image == image_id)
+        .where(edit.c.sequence >= first, is_edit_of(image_id))
         .order_by(edit.c.sequence)
     )
     approved: dict[str, Cap | None] = {}

@@ -17,7 +17,8 @@ import msgspec
 from msgspec import Struct
 from sqlalchemy import Connection, Table, delete, select, text, update
 
-from fairyring.storage.db import schema
+from fairyring.storage.compared_classes import sum_up
+from fairyring.storage.db import comparison_schema, schema
 from fairyring.storage.db.bulk import insert_many
 from fairyring.storage.db.clock import now
 from fairyring.storage.db.rows import require_image
@@ -35,10 +36,11 @@ TABLES: tuple[Table, ...] = (
     schema.status_change,
     schema.verdict,
     schema.repeat,
-    schema.comparison,
-    schema.compared_cap,
+    comparison_schema.comparison,
+    comparison_schema.compared_cap,
 )
-"""Those that hold something of an image, in the order in which rows refer to others."""
+"""Those that hold something of an image, in the order in which rows refer to others; what
+``compared_class`` sums up follows from them."""
 
 DELETED = "_refuses_delete"
 """End of the names of the triggers that keep the journal whole."""
@@ -71,7 +73,7 @@ def take_out(project: Project, image_ids: Sequence[int], *, user: str) -> list[T
         for each in taken:
             _write(folder, each)
         with _journal_open(connection):
-            for table in reversed(TABLES):
+            for table in reversed((*TABLES, comparison_schema.compared_class)):
                 connection.execute(delete(table).where(_image_of(table).in_(image_ids)))
         return taken
 
@@ -118,6 +120,8 @@ def put_back(project: Project, images: Sequence[TakenOut]) -> None:
             _require_free(connection, each)
             for table in TABLES:
                 insert_many(connection, table, each.rows.get(table.name, []))
+            caps, classes = comparison_schema.compared_cap.c, comparison_schema.compared_class.c
+            sum_up(connection, caps.image == each.number, classes.image == each.number)
             # Whoever still holds it from before must read it anew.
             newer = schema.image.c.version + 1
             connection.execute(

@@ -20,7 +20,7 @@ from fairyring.app.live.opening import open_image, reopen, step
 from fairyring.app.live.queues import take_up_queue
 from fairyring.app.live.recalling import recall
 from fairyring.app.live.repeating import ask_again, keep_again
-from fairyring.app.live.reviewing import tell_differences
+from fairyring.app.live.reviewing import compare_photo_with_number, tell_differences
 from fairyring.app.live.session import MOST_UNSENT, Selection, Session
 from fairyring.app.live.tagging import tag
 from fairyring.app.live.workspace import Workspace
@@ -34,6 +34,7 @@ from fairyring.app.protocol import (
     Cancel,
     Compare,
     Compared,
+    CompareWith,
     Edits,
     FindCap,
     FromServer,
@@ -201,7 +202,7 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
         case Saving(waiting=waiting):
             session.waiting = waiting
             session.refresh("status")
-        case Window() | Tag() | Predict() | Cancel() | Compare() | ShowCaps():
+        case Window() | Tag() | Predict() | Cancel() | Compare() | CompareWith() | ShowCaps():
             await _carry_out_for_panel(workspace, session, message)
         case AskAgain(quiet=quiet):
             await ask_again(workspace, session, quiet=quiet)
@@ -211,13 +212,16 @@ async def _carry_out(workspace: Workspace, session: Session, answering: Answerin
             session.notify("This tab has said hello before.", "warning")
 
 
-async def _carry_out_for_panel(
-    workspace: Workspace, session: Session, message: Window | Tag | Predict | Cancel | Compare | ShowCaps
-) -> None:
+_FromPanel = Window | Tag | Predict | Cancel | Compare | CompareWith | ShowCaps
+
+
+async def _carry_out_for_panel(workspace: Workspace, session: Session, message: _FromPanel) -> None:
     """Carries out what the panel's own HTML asks for by way of the editor, and what reviewers ask."""
     match message:
         case Compare(image=image):
             await tell_differences(workspace, session, image)
+        case CompareWith(run=run):
+            await compare_photo_with_number(workspace, session, run)
         case ShowCaps(kind=kind, group=group):
             session.gallery, session.gallery_group = kind, group
             session.redraw_at_once(("gallery",))

@@ -14,8 +14,9 @@ from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Compared
 from fairyring.storage.contents import load_annotations, load_predictions, load_turned_down
 from fairyring.storage.images import get_image
+from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Annotation, Image, Prediction, Run
-from fairyring.storage.runs import predictions_by
+from fairyring.storage.runs import get_run, predictions_by
 
 
 async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
@@ -24,6 +25,19 @@ async def compare_photo_with(workspace: Workspace, session: Session, run: Run | 
     session.refresh("review")
     if session.image is not None:
         await tell_differences(workspace, session, session.image.id)
+
+
+async def compare_photo_with_number(workspace: Workspace, session: Session, number: int) -> None:
+    """The same with the run of this number, as a cap of it is about to be shown.
+
+    Raises StoreError where the project has no such run.
+    """
+    run, latest = await workspace.read(lambda c: (get_run(c, number), latest_run(c)))
+    drawn = session.run_on_photo or latest
+    if drawn is None or drawn.id != run.id:
+        is_latest = latest is not None and run.id == latest.id
+        await compare_photo_with(workspace, session, None if is_latest else run)
+        session.redraw_at_once(("beside", "annotators"))
 
 
 async def tell_differences(workspace: Workspace, session: Session, image_id: int) -> None:

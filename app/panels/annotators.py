@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -14,13 +14,16 @@ from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
+from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import Content, Markup, element
 from fairyring.app.review.two_annotators import agreement_on_image
 from fairyring.model.evaluate.agreement import Agreement
 from fairyring.model.evaluate.kappa import Kappa, kappa_of
+from fairyring.storage.cap_groups import Group
+from fairyring.storage.compared_caps import Kind
 from fairyring.storage.compared_runs import lacking_comparison
 from fairyring.storage.records import Run
-from fairyring.storage.runs import images_seen_by, list_runs, require_run
+from fairyring.storage.runs import all_runs, images_seen_by, require_run
 from fairyring.storage.second_versions import SecondVersion, doubts, images_compared
 
 NOBODY = "nobody else"
@@ -89,7 +92,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def _find(connection: Connection, *, image: int | None, second: str | None) -> Both:
-    versions = {row.run.name: row.run for row in reversed(list_runs(connection)) if row.run.kind == "import"}
+    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "import"}
     chosen = versions.get(second or "")
     if chosen is None:
         return Both(versions=list(versions))
@@ -111,76 +114,90 @@ def annotators_page(found: Both, current: int | None) -> Markup:
     return element(
         "div",
         None if found.here else element("div", f"{found.second.name} holds nothing of this photo."),
-        _figures(found, found.second.name),
-        _images(found.images, current),
+        _figures(found, found.second, current),
+        _images(found.images, found.second, current),
         element("div", f"{found.lacking} images are not compared yet.") if found.lacking else None,
         class_="fr-review fr-quiet",
     )
 
 
-def _figures(found: Both, second: str) -> Markup:
+def _figures(found: Both, second: Run, current: int | None) -> Markup:
+    """Both columns; their numbers lead to the caps, where these were compared as they are now."""
     here, images = found.here, found.images
     iou = _mean([(each.iou_mean, each.matched) for each in images])
     px = _mean([(each.px_mean, each.measured) for each in images])
-    rows: Sequence[tuple[str, Content, Content]] = (
-        ("matched", here.matched if here else "–", sum(each.matched for each in images)),
-        ("missed by the second", here.only_first if here else "–", sum(each.missed for each in images)),
+    all_images = Group(by="run", value=str(second.id)) if images else None
+    is_compared = any(each.image == current and not each.stale for each in images)
+    this_photo = Group(by="run", value=str(second.id), image=current) if is_compared else None
+    rows: Sequence[tuple[str, Kind, Content, Content]] = (
+        ("matched", "matched", here.matched if here else "–", sum(each.matched for each in images)),
+        ("missed by the second", "missed", here.only_first if here else "–", sum(e.missed for e in images)),
         (
             "only the second has (extra)",
+            "extra",
             here.only_second if here else "–",
-            sum(each.extra for each in images),
+            sum(e.extra for e in images),
         ),
-        ("IoU", _number(here.iou.mean if here and here.iou else None, 3), _number(iou, 3)),
-        ("between centres, px", _number(here.px.mean if here and here.px else None, 2), _number(px, 2)),
-        ("kappa of doubtful", _kappa(here.doubtful if here else None), _kappa(found.doubtful)),
+        ("IoU", "matched", _number(here.iou.mean if here and here.iou else None, 3), _number(iou, 3)),
+        (
+            "between centres, px",
+            "worst",
+            _number(here.px.mean if here and here.px else None, 2),
+            _number(px, 2),
+        ),
+        ("kappa of doubtful", "doubtful", _kappa(here.doubtful if here else None), _kappa(found.doubtful)),
     )
-    titles = (f"annotations and {second}", "this photo", _counted_images(len(images)))
-    return _table("Two annotators", titles, [element("tr", *_cells(row)) for row in rows])
+    titles = {f"annotations and {second.name}": None, "this photo": 64, _counted_images(len(images)): 64}
+    lines = [
+        element(
+            "tr", *_cells((name, _counted(kind, of_photo, this_photo), _counted(kind, of_all, all_images)))
+        )
+        for name, kind, of_photo, of_all in rows
+    ]
+    return _table("Two annotators", titles, lines)
 
 
-def _images(images: Sequence[SecondVersion], current: int | None) -> Markup | None:
-    """Each image leads to the photo, with both versions drawn."""
+def _counted(kind: Kind, number: Content, group: Group | None) -> Content:
+    return number if group is None or number == "–" else counted(kind, number, group=group)
+
+
+def _images(images: Sequence[SecondVersion], second: Run, current: int | None) -> Markup | None:
+    """Each image leads to the photo, with both versions drawn; its numbers to their caps."""
     if not images:
         return None
-    rows = [
-        element(
-            "tr",
-            element("td", element("span", each.file_name, class_="fr-ellipsis", title=each.file_name)),
-            *(
-                element("td", value, class_="fr-number")
-                for value in (
-                    each.missed,
-                    each.extra,
-                    _number(each.iou_mean, 3),
-                    _number(each.px_mean, 2),
-                )
-            ),
-            class_="fr-stale" if each.stale else None,
-            aria_current="true" if each.image == current else None,
-            tabindex=0,
-            role="button",
-            data_fairyring_open=each.image,
-            data_fairyring_differences=True,
-        )
-        for each in images[:MOST_IMAGES]
-    ]
+    rows = [_row_of_image(each, second, is_current=each.image == current) for each in images[:MOST_IMAGES]]
     left_out = len(images) - len(rows)
     more = (
         element("div", f"{left_out} images on which they agree better are not listed.") if left_out else None
     )
-    table = _table("Images of two annotators", ("Image", "Missed", "Extra", "IoU", "px"), rows)
+    titles = {"Image": None, "Missed": 48, "Extra": 42, "IoU": 46, "px": 46}
+    table = _table("Images of two annotators", titles, rows)
     return element("div", table, more)
 
 
-def _table(name: str, titles: Sequence[str], rows: Sequence[Markup]) -> Markup:
-    head = (element("th", title, class_="fr-number" if nth else None) for nth, title in enumerate(titles))
-    return element(
-        "table",
-        element("thead", element("tr", *head)),
-        element("tbody", *rows),
-        class_="fr-list",
-        aria_label=name,
+def _row_of_image(each: SecondVersion, second: Run, *, is_current: bool) -> Markup:
+    group = Group(by="run", value=str(second.id), image=each.image)
+    numbers = (
+        counted("missed", each.missed, group=group),
+        counted("extra", each.extra, group=group),
+        counted("matched", _number(each.iou_mean, 3), group=group),
+        counted("worst", _number(each.px_mean, 2), group=group),
     )
+    name = element("span", each.file_name, class_="fr-ellipsis", title=each.file_name)
+    return element(
+        "tr",
+        element("td", element("button", name, type="button", class_="fr-opens")),
+        *(element("td", number, class_="fr-number") for number in numbers),
+        class_="fr-stale" if each.stale else None,
+        aria_current="true" if is_current else None,
+        data_fairyring_open=each.image,
+        data_fairyring_run=second.id,
+        data_fairyring_differences=True,
+    )
+
+
+def _table(name: str, titles: Mapping[str, int | None], rows: Sequence[Markup]) -> Markup:
+    return element("table", titles_of(titles), element("tbody", *rows), class_="fr-list", aria_label=name)
 
 
 def _cells(row: Sequence[Content]) -> list[Markup]:

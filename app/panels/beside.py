@@ -14,7 +14,9 @@ from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw, person_did
-from fairyring.app.panels.markup import Content, Markup, element
+from fairyring.app.panels.counted import counted, titles_of
+from fairyring.app.panels.markup import Markup, element
+from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_runs import (
     BothRuns,
     ChangedCap,
@@ -25,7 +27,7 @@ from fairyring.storage.compared_runs import (
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
 from fairyring.storage.review_figures import Totals
-from fairyring.storage.runs import list_runs, require_run
+from fairyring.storage.runs import all_runs, require_run
 
 NOTHING = "nothing"
 LATEST = "the latest"
@@ -97,7 +99,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 def find_beside(connection: Connection, *, chosen: str | None, against: str | None = None) -> Beside:
     """The figures of the runs of these names (None: the latest one), on the images that both saw."""
-    runs = {row.run.name: row.run for row in reversed(list_runs(connection))}
+    runs = {run.name: run for run in reversed(all_runs(connection))}
     before = runs.get(chosen or "")
     after = latest_run(connection) if against is None else runs.get(against)
     if before is None or after is None or before.id == after.id:
@@ -129,32 +131,42 @@ def beside_page(found: Beside) -> Markup:
         element(
             "table",
             element("thead", head),
-            element("tbody", *_rows(found.both.first, found.both.second)),
+            element("tbody", *_rows(found.both, found.before, found.after)),
             class_="fr-list",
             aria_label="Two runs side by side",
         ),
-        _changed(found.changed),
+        _changed(found.changed, found.after),
         class_="fr-review",
     )
 
 
-def _rows(first: Totals, second: Totals) -> list[Markup]:
-    figures: Sequence[tuple[str, Content, Content]] = (
-        ("CDR %", _number(first.cdr), _number(second.cdr)),
-        ("floor %", _number(first.floor), _number(second.floor)),
-        ("Δx, px", _number(first.dx), _number(second.dx)),
-        ("Δy, px", _number(first.dy), _number(second.dy)),
-        ("measured", first.measured, second.measured),
-        ("missed", first.missed, second.missed),
-        ("extra", first.extra, second.extra),
-    )
+def _rows(both: BothRuns, before: Run, after: Run) -> list[Markup]:
+    """A figure of both runs a row; each leads to the caps that it counts, on the images that both saw."""
+    sides = [(both.first, before, after), (both.second, after, before)]
+    columns = [_numbers(of, Group(by="run", value=str(run.id), beside=other.id)) for of, run, other in sides]
     return [
-        element("tr", element("td", name), *(element("td", value, class_="fr-number") for value in values))
-        for name, *values in figures
+        element(
+            "tr", element("td", name), *(element("td", each[name], class_="fr-number") for each in columns)
+        )
+        for name in columns[0]
     ]
 
 
-def _changed(caps: Sequence[ChangedCap]) -> Markup | None:
+def _numbers(of: Totals, group: Group) -> dict[str, Markup]:
+    """By what they are called."""
+    return {
+        "CDR %": counted("worst", _number(of.cdr), group=group),
+        "floor %": counted("worst", _number(of.floor), group=group),
+        "Δx, px": counted("worst", _number(of.dx), group=group),
+        "Δy, px": counted("worst", _number(of.dy), group=group),
+        "measured": counted("worst", of.measured, group=group),
+        "matched": counted("matched", of.matched, group=group),
+        "missed": counted("missed", of.missed, group=group),
+        "extra": counted("extra", of.extra, group=group),
+    }
+
+
+def _changed(caps: Sequence[ChangedCap], after: Run) -> Markup | None:
     if not caps:
         return None
     rows = (
@@ -169,17 +181,14 @@ def _changed(caps: Sequence[ChangedCap]) -> Markup | None:
             role="button",
             data_fairyring_open=cap.image,
             data_fairyring_select=cap.annotation,
+            data_fairyring_run=after.id,
             data_fairyring_differences=True,
         )
         for cap in caps
     )
-    titles = ("Changed most", "before", "after", "floor")
-    head = (
-        element("th", title, class_=None if nth == 0 else "fr-number") for nth, title in enumerate(titles)
-    )
     return element(
         "table",
-        element("thead", element("tr", *head)),
+        titles_of({"Changed most": None, "before": 50, "after": 50, "floor": 50}),
         element("tbody", *rows),
         class_="fr-list",
         aria_label="Caps that changed most",

@@ -128,8 +128,18 @@ def _name_of(connection: Connection, group: Group) -> str:
         if group.by == "image":
             return get_image(connection, number_of(group) or 0).file_name
         if group.by == "run":
-            return f"run {get_run(connection, number_of(group) or 0).name}"
+            return _name_of_run(connection, group)
     return f"{BY_WORDS[group.by]}: {words_of(group.value or NOT_KNOWN)}"
+
+
+def _name_of_run(connection: Connection, group: Group) -> str:
+    """Against which run, on which images. Raises StoreError where one of them is gone."""
+    name = f"against {get_run(connection, number_of(group) or 0).name}"
+    if group.image is not None:
+        return f"{name}, of {get_image(connection, group.image).file_name}"
+    if group.beside is not None:
+        return f"{name}, of images compared with {get_run(connection, group.beside).name}, too"
+    return name
 
 
 def _thumbnail(connection: Connection, figures: CapFigures) -> Thumbnail:
@@ -199,5 +209,6 @@ def _figure(each: Thumbnail) -> Markup:
         aria_label=f"Open {told}",
         data_fairyring_open=each.image.id,
         data_fairyring_select=select,
+        data_fairyring_run=figures.run,
         data_fairyring_differences=True,
     )

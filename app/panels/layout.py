@@ -28,9 +28,9 @@ from fairyring.app.panels.callbacks import Redrawing
 ALL = (
     *(
         "status",
+        "images",
         "review",
         "gallery",
-        "images",
         "cap",
         "history",
         "queue",

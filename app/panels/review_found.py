@@ -14,8 +14,8 @@ from fairyring.storage.cap_groups import By
 from fairyring.storage.comparisons import ComparisonRow, ComparisonSort, list_comparisons, stale_images
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Run
-from fairyring.storage.review_figures import Totals, totals, totals_by, untouched
-from fairyring.storage.runs import list_runs
+from fairyring.storage.review_figures import Totals, marked_caps, totals, totals_by, untouched
+from fairyring.storage.runs import all_runs
 
 PAGE = 10
 ORDERS: dict[str, tuple[ComparisonSort, bool]] = {
@@ -60,6 +60,8 @@ class Review:
 
     run: Run | None
     totals: Totals | None = None
+    marked: int = 0
+    """Caps whose mark gives a centre, on all images."""
     groups: Mapping[str, Totals] = field(default_factory=dict)
     """By value, in the order in which they are shown; runs by their number."""
     names_of_runs: Mapping[str, str] = field(default_factory=dict)
@@ -93,6 +95,7 @@ def find_review(connection: Connection, *, wanted: Wanted) -> Review:
     return Review(
         run=run,
         totals=totals(connection, run.id, only_sure=wanted.only_sure),
+        marked=marked_caps(connection, run.id),
         groups=_groups(connection, run.id, wanted),
         names_of_runs=_names_of_runs(connection, wanted),
         rows=found.rows,
@@ -115,4 +118,4 @@ def _groups(connection: Connection, run_id: int, wanted: Wanted) -> dict[str, To
 
 
 def _names_of_runs(connection: Connection, wanted: Wanted) -> dict[str, str]:
-    return {str(row.run.id): row.run.name for row in list_runs(connection)} if wanted.by == "run" else {}
+    return {str(run.id): run.name for run in all_runs(connection)} if wanted.by == "run" else {}

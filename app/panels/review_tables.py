@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 
 from fairyring.app.addresses import review_address
-from fairyring.app.panels.counted import counted
+from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.review_found import USUAL, Review, Wanted
 from fairyring.app.panels.status import run_badge
 from fairyring.app.review.groups import NOT_KNOWN, words_of
+from fairyring.app.review.unmeasured import why_unmeasured
 from fairyring.app.review.what_cdr_is import ABOUT
 from fairyring.storage.cap_groups import By, Group
 from fairyring.storage.comparisons import ComparisonRow
@@ -25,6 +25,7 @@ def review_figures(review: Review) -> Markup:
         "div",
         element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
         _totals(review.totals),
+        _why_unmeasured(review.totals, marked=review.marked),
         element("details", element("summary", "What CDR is"), element("p", ABOUT), class_="fr-quiet"),
         class_="fr-review",
     )
@@ -67,7 +68,7 @@ def _reports(current: int | None, wanted: Wanted) -> Markup:
     return element(
         "div",
         *(element("a", words, href=to, target="_blank") for words, to in links.items()),
-        class_="fr-line",
+        class_="fr-links",
     )
 
 
@@ -95,12 +96,20 @@ def _stale_note(stale: int) -> Markup | None:
     )
 
 
+def _why_unmeasured(found: Totals, *, marked: int) -> Markup | None:
+    """Why there are dashes in place of figures."""
+    if found.measured:
+        return None
+    counts = {"matched": found.matched, "missed": found.missed, "extra": found.extra, "marked": marked}
+    return element("p", why_unmeasured(counts), class_="fr-quiet")
+
+
 def _totals(found: Totals) -> Markup:
     shift = "–" if found.dx is None or found.dy is None else f"{found.dx:+.2f}, {found.dy:+.2f}"
     shown = (
-        ("mean CDR", counted("worst", _with_percent(found.cdr))),
-        ("floor of marks", counted("worst", _with_percent(found.floor))),
-        ("Δx, Δy, px", counted("worst", shift)),
+        ("mean CDR", _mean_of_caps(_with_percent(found.cdr))),
+        ("floor of marks", _mean_of_caps(_with_percent(found.floor))),
+        ("Δx, Δy, px", _mean_of_caps(shift)),
         ("measured", counted("worst", found.measured)),
         ("matched", counted("matched", found.matched)),
         ("missed", counted("missed", found.missed)),
@@ -112,6 +121,10 @@ def _totals(found: Totals) -> Markup:
         class_="fr-totals",
         title=ABOUT,
     )
+
+
+def _mean_of_caps(figure: str) -> Content:
+    return figure if figure == "–" else counted("worst", figure)
 
 
 def _groups(review: Review, by: By | None) -> Markup | None:
@@ -128,7 +141,7 @@ def _groups(review: Review, by: By | None) -> Markup | None:
     )
     return element(
         "table",
-        _titles(titles),
+        titles_of(titles),
         element("tbody", *rows),
         class_="fr-list fr-groups",
         aria_label="Groups of caps",
@@ -148,16 +161,7 @@ def _numbers_of(of: Totals, by: By, value: str) -> list[Markup]:
 
 
 def _head() -> Markup:
-    return _titles({"Image": None, "CDR %": 46, "Floor": 40, "Worst": 42, "Missed": 46, "Extra": 38})
-
-
-def _titles(widths: Mapping[str, int | None]) -> Markup:
-    """A line of titles with the widths of their columns, pixels; the one without a width takes the rest."""
-    cells = (
-        element("th", title, class_="fr-number" if width else None, width=width)
-        for title, width in widths.items()
-    )
-    return element("thead", element("tr", *cells))
+    return titles_of({"Image": None, "CDR %": 46, "Floor": 40, "Worst": 42, "Missed": 46, "Extra": 38})
 
 
 def _row(row: ComparisonRow, current: int | None) -> Markup:

@@ -13,7 +13,7 @@ from fairyring.model.evaluate.masks import MaskScores, score_masks
 from fairyring.model.evaluate.pages import Page
 from fairyring.storage.project import Project
 from fairyring.storage.records import Run
-from fairyring.storage.runs import images_seen_by, list_runs
+from fairyring.storage.runs import all_runs, images_seen_by
 
 MOST_RUNS = 4
 """How many of the latest runs stand in Tables 2 and 3."""
@@ -40,7 +40,7 @@ def _scored(project: Project, review: Review) -> list[_Scored]:
     numbers = [image.id for image in review.images]
     found = []
     with project.read() as connection:
-        runs = [row.run for row in list_runs(connection)]
+        runs = all_runs(connection)
         for run in reversed(runs):
             seen = {image.id for image in images_seen_by(connection, run.id)}
             wanted = [number for number in numbers if number in seen]

@@ -1,5 +1,5 @@
 /**
- * What the editor and the server say to each other: the JSON of `app/protocol.py` and `storage/records.py` as JSDoc
+ * What the editor and the server say to each other: the JSON of `app/protocol` and `storage/records.py` as JSDoc
  * types. A test compares the two.
  *
  * @module
@@ -43,6 +43,7 @@
 /** @typedef {import("./messages/to_server.js").Saving} Saving */
 /** @typedef {import("./messages/to_server.js").Window} Window */
 /** @typedef {import("./messages/to_server.js").Compare} Compare */
+/** @typedef {import("./messages/to_server.js").CompareWith} CompareWith */
 /** @typedef {import("./messages/to_server.js").ShowCaps} ShowCaps */
 /** @typedef {import("./messages/to_server.js").Group} Group */
 /** @typedef {import("./messages/to_server.js").FindCap} FindCap */

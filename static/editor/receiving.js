@@ -41,7 +41,8 @@ export function receiver({ state, sync, reviewing, repeating, liveFit, found, op
         return progress();
       case "outcomes":
         sync.receive(message.outcomes);
-        return reviewing.ask();
+        if (message.outcomes.some(({ outcome }) => outcome !== "status")) reviewing.ask();
+        return;
       case "compared":
         sync.changed(message.image, message.turned_down);
         return reviewing.take(message);
@@ -54,10 +55,11 @@ export function receiver({ state, sync, reviewing, repeating, liveFit, found, op
       case "recalled":
         return sync.recalled(message);
       case "changed":
-        return sync.changed(message.image, message.annotations);
+        sync.changed(message.image, message.annotations);
+        return reviewing.ask();
       case "predicted":
         if (message.image === state.image?.id) state.predict(message.predictions);
-        return;
+        return reviewing.ask();
       case "found_cap":
         return found.take(message);
       case "fit":

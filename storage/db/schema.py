@@ -2,7 +2,8 @@
 
 ``image.caps``, ``image.ignored``, ``image.run``, ``image.predicted`` and ``image.version`` repeat what
 other tables hold, so that a list of 10 000 images needs no join over 500 000 caps; whoever changes
-annotations or predictions keeps them right (``storage.db.counters``).
+annotations or predictions keeps them right (``storage.db.counters``). What comparisons say of images stands
+in ``comparison_schema``.
 """
 
 from __future__ import annotations
@@ -238,58 +239,5 @@ repeat = Table(
     Column("size", Text),
     Column("visibility", Text),
     Column("made_at", Text, nullable=False),
-    **NEVER_REUSED,
-)
-
-comparison = Table(
-    "comparison",
-    metadata,
-    Column("image", Integer, ForeignKey("image.id"), primary_key=True),
-    Column("run", Integer, ForeignKey("run.id"), primary_key=True),
-    Column("version", Integer, nullable=False),
-    Column("caps", Integer, nullable=False),
-    Column("marked", Integer, nullable=False),
-    Column("matched", Integer, nullable=False),
-    Column("missed", Integer, nullable=False),
-    Column("extra", Integer, nullable=False),
-    Column("measured", Integer, nullable=False, server_default="0"),
-    Column("doubtful", Integer, nullable=False, server_default="0"),
-    Column("unsure", Integer, nullable=False, server_default="0"),
-    Column("ignored", Integer, nullable=False, server_default="0"),
-    Column("cdr_mean", Real),
-    Column("iou_mean", Real),
-    Column("floor_mean", Real),
-    Column("cdr_worst", Real),
-    Column("worst", Text),
-    Column("px_mean", Real),
-    Column("relative_mean", Real),
-    Column("dx", Real),
-    Column("dy", Real),
-    Column("made_at", Text, nullable=False),
-    **STRICT,
-)
-
-compared_cap = Table(
-    "compared_cap",
-    metadata,
-    Column("sequence", Integer, primary_key=True),
-    Column("image", Integer, ForeignKey("image.id"), nullable=False),
-    Column("run", Integer, ForeignKey("run.id"), nullable=False),
-    Column("annotation", Text),
-    Column("prediction", Integer),
-    Column("iou", Real),
-    Column("cdr", Real),
-    Column("floor", Real),
-    Column("doubtful", Flag, nullable=False),
-    Column("unsure", Flag, nullable=False),
-    Column("annotator", Text),
-    Column("size", Text),
-    Column("shape", Text),
-    Column("visibility", Text),
-    Column("own_floor", Real),
-    Column("dx", Real),
-    Column("dy", Real),
-    Column("ignored", Flag, nullable=False, server_default="0"),
-    Index(None, "run", "image"),
     **NEVER_REUSED,
 )

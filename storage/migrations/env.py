@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from alembic import context
 
-from fairyring.storage.db.schema import metadata
+from fairyring.storage.db.comparison_schema import metadata  # with all tables, so not that of schema
 
 context.configure(connection=context.config.attributes["connection"], target_metadata=metadata)
 with context.begin_transaction():

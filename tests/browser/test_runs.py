@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from urllib.parse import urljoin
 
 import pytest
-from playwright.sync_api import TimeoutError as TookTooLong
+from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server, served
@@ -16,6 +18,7 @@ from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap, Edit
+from tests.support.choosing import choose
 from tests.support.sighted import write_weights
 from tests.unit.storage.conftest import write_noise
 
@@ -59,19 +62,6 @@ def tab(server: Server, open_tab: Callable[..., Tab]) -> Tab:
     return opened
 
 
-def choose(tab: Tab, field: str, option: str) -> None:
-    """Picks from a list of the panel; one that folds up because the panel is drawn anew is opened again."""
-    listed = tab.page.get_by_role("option", name=option, exact=True).filter(visible=True)
-    for _ in range(10):
-        tab.page.get_by_role("combobox", name=field, exact=True).click()
-        try:
-            listed.click(timeout=3000)
-        except TookTooLong:
-            continue
-        return
-    raise AssertionError(f"The list {field} does not stay open long enough to choose {option}")
-
-
 def test_a_run_is_shown_and_gets_another_name_in_list_and_head(tab: Tab) -> None:
     tab.page.locator(".fr-run").get_by_text("abababababab").wait_for()
     tab.page.get_by_label("Another name").fill("after the new lamps")
@@ -109,6 +99,60 @@ def test_two_runs_stand_side_by_side_and_either_is_drawn_on_the_photo(tab: Tab) 
     assert tab.state("review.caps")[0]["cdr"] == pytest.approx(1.25)
     choose(tab, "On the photo", "the latest of each image")
     tab.wait_for("window.fairyring.state.review.caps[0].prediction.centre[0] === 92")
+
+
+def test_every_number_of_two_runs_leads_to_the_caps_that_it_counts_and_draws_that_run(tab: Tab) -> None:
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two runs side by side", exact=True).click()
+    choose(tab, "First run", "old")
+    tab.page.get_by_role("button", name="Compare images with these runs").click()
+    both = tab.page.get_by_role("table", name="Two runs side by side")
+    caps = tab.page.get_by_role("group", name="Caps of all images")
+    for row, words in (
+        ("CDR %", "1–1 of 1. CDR / floor of its mark"),
+        ("matched 1 1", "1–1 of 1. Annotated and predicted"),
+        ("missed 0 0", "None. Annotated, and not predicted."),
+        ("extra 0 0", "None. Predicted, and not annotated."),
+    ):
+        both.get_by_role("row", name=row).get_by_role("button").first.click()
+        caps.get_by_text("Only against old, of images compared with new, too").wait_for()
+        caps.get_by_text(words).wait_for()
+    both.get_by_role("row", name="Δx, px").get_by_role("button", name="4.000").click()
+    worst = caps.locator(".fr-gallery button")
+    # 4 of 320 pixels.
+    worst.get_by_text("1.25 /").wait_for()
+    worst.click()
+    tab.wait_for("window.fairyring.state.review.caps[0]?.prediction.centre[0] === 94")
+    expect(tab.page.get_by_role("combobox", name="On the photo", exact=True)).to_have_value("old")
+    both.get_by_role("row", name="Δx, px").get_by_role("button", name="2.000").click()
+    caps.get_by_text("Only against new, of images compared with old, too").wait_for()
+    worst.get_by_text("0.62 /").wait_for()
+    worst.click()
+    tab.wait_for("window.fairyring.state.review.caps[0]?.prediction.centre[0] === 92")
+    assert tab.state("selection") == ["a"]
+
+
+def test_the_report_is_of_the_run_that_was_chosen_for_the_photo(tab: Tab) -> None:
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two runs side by side", exact=True).click()
+    tab.page.get_by_role("button", name="Bring up to date").click()
+    choose(tab, "On the photo", "old")
+    link = tab.page.get_by_role("link", name="Report of this image against old")
+    of_old = tab.page.request.get(urljoin(tab.page.url, link.get_attribute("href") or ""))
+    of_latest = tab.page.request.get(urljoin(tab.page.url, "/review/report.html?image=1"))
+    pictures = []
+    for report, run, cdr in ((of_old, "old", "1.250"), (of_latest, "new", "0.625")):
+        page = report.text()
+        assert f"Held against the predictions of {run}." in page or f"Held against {run}." in page
+        # 4 and 2 of 320 pixels.
+        assert cdr in page
+        pictures.append(re.findall(r'<img src="(data:[^"]+)" alt="bed.png', page))
+    # Marked contours are the same in both; predicted ones, and both together, are those of the run.
+    (marked_1, predicted_1, both_1), (marked_2, predicted_2, both_2) = (each[:3] for each in pictures)
+    assert marked_1 == marked_2
+    assert predicted_1 != predicted_2
+    assert both_1 != both_2
+    assert tab.page.request.get(urljoin(tab.page.url, "/review/report.html?run=99")).status == 404
 
 
 def test_a_run_that_later_ones_hide_is_exported(tab: Tab) -> None:

@@ -15,7 +15,8 @@ from fairyring.app.bench.serving import Server
 from fairyring.storage.choices import ImportAs
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.project import open_project
-from tests.support.annotated_beds import RADIUS, make_annotated_beds
+from tests.support.annotated_beds import RADIUS, make_annotated_beds, uid_of
+from tests.support.choosing import choose
 from tests.support.plain_bed import SIZE, ring
 
 BENS = ((80, 80), (360, 80), (500, 100), (400, 300), (600, 400))
@@ -45,8 +46,7 @@ def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
     tab = open_tab(server, name="Rev")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("Two annotators", exact=True).click()
-    tab.page.get_by_role("combobox", name="Second annotator", exact=True).click()
-    tab.page.get_by_role("option", name="ben.json", exact=True).click()
+    choose(tab, "Second annotator", "ben.json")
     tab.page.get_by_role("button", name="Compare all images with this version").click()
     table = tab.page.get_by_role("table", name="Two annotators", exact=True)
     for row in (
@@ -74,5 +74,42 @@ def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
     tab.press("n")
     tab.page.get_by_text("ben.json holds nothing of this photo.").wait_for()
     images = tab.page.get_by_role("table", name="Images of two annotators")
-    images.get_by_role("button", name=re.compile("^bed_1.png 1 1 1.000")).click()
+    images.get_by_role("row", name=re.compile("^bed_1.png 1 1 1.000")).wait_for()
+    images.get_by_role("button", name="bed_1.png", exact=True).click()
     tab.wait_for("window.fairyring.state.image.id === 1")
+
+
+def test_every_number_of_two_annotators_leads_to_the_caps_that_it_counts(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two annotators", exact=True).click()
+    choose(tab, "Second annotator", "ben.json")
+    tab.page.get_by_role("button", name="Compare all images with this version").click()
+    table = tab.page.get_by_role("table", name="Two annotators", exact=True)
+    caps = tab.page.get_by_role("group", name="Caps of all images")
+    shown = caps.locator(".fr-gallery button")
+    for row, number, count in (
+        ("matched", "4", "1–4 of 4. Annotated and predicted"),
+        ("IoU", "1.000", "1–4 of 4. Annotated and predicted"),
+        ("only the second has (extra)", "1", "1–1 of 1. Predicted, and not annotated."),
+        ("missed by the second", "1", "1–1 of 1. Annotated, and not predicted."),
+    ):
+        numbers = table.get_by_role("row", name=row).get_by_role("button", name=number, exact=True)
+        expect(numbers).to_have_count(2, timeout=30_000)
+        for column, words in ((0, "Only against ben.json, of bed_1.png"), (1, "Only against ben.json")):
+            numbers.nth(column).click()
+            caps.get_by_text(words, exact=True).wait_for()
+            caps.get_by_text(count).wait_for()
+    # Ben left out the second cap of Ada's.
+    shown.first.click()
+    tab.wait_for(f"window.fairyring.state.selection[0] === {uid_of(1, 1)!r}")
+    tab.page.get_by_text("missed: the model has no such cap").first.wait_for()
+    bed_1 = tab.page.get_by_role("table", name="Images of two annotators").get_by_role(
+        "row", name="bed_1.png"
+    )
+    bed_1.get_by_role("button", name="1", exact=True).last.click()
+    caps.get_by_text("1–1 of 1. Predicted, and not annotated.").wait_for()
+    caps.get_by_role("button", name="Show all").click()
+    caps.get_by_text("Only against").wait_for(state="detached")

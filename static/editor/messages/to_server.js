@@ -95,6 +95,14 @@
  * @typedef {Object} Group
  * @property {"light" | "form" | "size" | "visibility" | "shape" | "annotator" | "image" | "run"} by
  * @property {string | null} value
+ * @property {number | null} image
+ * @property {number | null} beside
+ */
+
+/**
+ * @typedef {Object} CompareWith
+ * @property {"compare_with"} type
+ * @property {number} run
  */
 
 /**
@@ -144,6 +152,6 @@
  * @property {number} job
  */
 
-/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare | ShowCaps | AskAgain | MarkedAgain} ToServer */
+/** @typedef {Hello | Open | Step | Edits | Refit | Select | Recall | Saving | Window | Tag | Predict | Cancel | FindCap | Compare | CompareWith | ShowCaps | AskAgain | MarkedAgain} ToServer */
 
 export {};

@@ -37,8 +37,9 @@ function carryOut(target, { open, perform, use, takeBack, send, compare }) {
   if (!(button instanceof HTMLElement)) return;
   const { fairyringOpen, fairyringSelect, fairyringCommand, fairyringTool, fairyringRecall, fairyringImage } =
     button.dataset;
-  const { fairyringCancel, fairyringPredict, fairyringGallery, fairyringDifferences } = button.dataset;
+  const { fairyringCancel, fairyringPredict, fairyringGallery, fairyringDifferences, fairyringRun } = button.dataset;
   if (isKind(fairyringGallery)) send({ type: "show_caps", kind: fairyringGallery, group: groupOf(button) });
+  if (fairyringRun) send({ type: "compare_with", run: Number(fairyringRun) });
   if (fairyringDifferences !== undefined) compare();
   if (fairyringCancel) send({ type: "cancel", job: Number(fairyringCancel) });
   if (fairyringPredict) send({ type: "predict", image: Number(fairyringPredict) });
@@ -54,9 +55,15 @@ function isKind(word) {
 }
 
 /** The group of caps that a button speaks of. @type {(button: HTMLElement) => import("../protocol.js").Group | null} */
-function groupOf({ dataset: { fairyringBy, fairyringValue } }) {
+function groupOf({ dataset: { fairyringBy, fairyringValue, fairyringOfImage, fairyringBeside } }) {
   const by = GROUPS.find((each) => each === fairyringBy);
-  return by === undefined ? null : { by, value: fairyringValue ?? null };
+  if (by === undefined) return null;
+  return { by, value: fairyringValue ?? null, image: number(fairyringOfImage), beside: number(fairyringBeside) };
+}
+
+/** @type {(said: string | undefined) => number | null} */
+function number(said) {
+  return said === undefined ? null : Number(said);
 }
 
 /** @type {import("../protocol.js").Group["by"][]} */

@@ -5,6 +5,7 @@
  * @module
  */
 
+import DECLARED from "../commands.js";
 import { COLOURS } from "../render/palette.js";
 import { heirsIn } from "../state/changes.js";
 import { partnerOf } from "../state/deciding.js";
@@ -15,6 +16,9 @@ import { element } from "./dom.js";
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("../state/review.js").Review} Review */
 
+/** What a reviewer needs at every image, with its key. */
+const KEYS = ["next_difference", "take_models", "take_annotators", "approve", "send_back", "reject"];
+
 /** @type {(host: HTMLElement, state: EditorState, review: Review) => void} */
 export function reviewStripIn(host, state, review) {
   const counter = element("strong");
@@ -22,7 +26,7 @@ export function reviewStripIn(host, state, review) {
   const centres = lineOf("", COLOURS.selected);
   const key = element("div", {}, lineOf("annotator’s", COLOURS.outline), lineOf("model’s", COLOURS.predicted, "5 3"), centres);
   const told = element("div", { attributes: { role: "status" } }, counter, kind);
-  const strip = element("div", { class: "fairyring-review" }, told, key);
+  const strip = element("div", { class: "fairyring-review" }, told, key, element("div", {}, ...keysOf(KEYS)));
   strip.dataset.fairyringChrome = "";
   host.append(strip);
   const update = () => {
@@ -62,6 +66,14 @@ export function kindWords(state, review, cap) {
   }
   const centres = cdr === null ? "no mark" : `CDR ${cdr.toFixed(2)} %, floor ${floor?.toFixed(2) ?? "–"} %`;
   return `${centres}, IoU ${iou?.toFixed(2) ?? "–"}`;
+}
+
+/** The keys of commands, each with what it does. @type {(names: string[]) => HTMLElement[]} */
+function keysOf(names) {
+  const declared = DECLARED.groups.flatMap(({ commands }) => commands).filter(({ name }) => names.includes(name));
+  return declared.map(({ keys: [key = ""], label }) =>
+    element("span", {}, element("kbd", { text: key }), document.createTextNode(` ${label ?? ""}`)),
+  );
 }
 
 /** Words after a piece of their line. @type {(words: string, colour: string, dash?: string) => HTMLElement} */

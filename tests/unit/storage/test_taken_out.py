@@ -2,6 +2,8 @@
 
 import pytest
 
+from fairyring.storage.compared_caps import CapFigures
+from fairyring.storage.comparisons import Comparison, store_comparison
 from fairyring.storage.contents import load_version
 from fairyring.storage.errors import StoreError
 from fairyring.storage.images import ImageFilter, find_image, list_images
@@ -18,7 +20,7 @@ APART = ("image", "sqlite_sequence", "sqlite_stat1", "sqlite_stat4")
 
 @pytest.fixture
 def worked_on(beds):
-    """Three images; the first has predictions, two caps, one edited twice, and is approved."""
+    """Three images; the first has predictions, two caps, one edited twice, is compared and approved."""
 
     def predict(connection):
         run = add_run(connection, name="lite0", kind="simulated")
@@ -32,6 +34,9 @@ def worked_on(beds):
     beds.write(predict)
     store(beds, Cap(visible=[SQUARE]), Cap(visible=[TRIANGLE]))
     store(beds, Cap(visible=[SQUARE]), image=2)
+    figures = Comparison(image=1, run=1, version=0, caps=2, marked=0, matched=1, missed=1, extra=0)
+    caps = [CapFigures(image=1, run=1, annotation="a", prediction=each, size="s") for each in (1, None)]
+    beds.write(lambda connection: store_comparison(connection, figures, caps=caps))
     beds.write(lambda connection: set_status(connection, 1, "approved", user="ann"))
     return beds
 
@@ -61,6 +66,7 @@ def test_an_image_is_taken_out_with_all_that_is_of_it(worked_on):
     assert [row[1] for row in rows["image"]] == ["bed_2.png", "bed_10.png"]
     assert (len(rows["annotation"]), len(rows["prediction"]), len(rows["status_change"])) == (1, 0, 0)
     assert len(rows["edit"]) == 1
+    assert (rows["compared_cap"], rows["compared_class"]) == ([], [])
     assert files_of(worked_on) == ["bed_10.png", "bed_2.png"]
 
 

@@ -7,8 +7,8 @@ import pytest
 from sqlalchemy import select, text
 
 from fairyring.storage.db import schema, upgrade
+from fairyring.storage.db.comparison_schema import metadata
 from fairyring.storage.db.engine import connect_engine
-from fairyring.storage.db.schema import metadata
 from fairyring.storage.errors import StoreError
 from fairyring.storage.project import create_project, open_project
 from tests.support.categories import category_names, insert_category
