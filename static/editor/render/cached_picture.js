@@ -14,6 +14,7 @@ import { covers, extentOf, goneOn, isOverstretched, isSharp, placeOf } from "./e
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("./extents.js").Extent} Extent */
+/** @typedef {import("./extents.js").Use} Use */
 /** @typedef {import("./extents.js").Wanted} Wanted */
 /** @typedef {OffscreenCanvasRenderingContext2D} Context */
 
@@ -23,8 +24,6 @@ import { covers, extentOf, goneOn, isOverstretched, isSharp, placeOf } from "./e
  * @property {(extent: Extent) => Promise<ImageBitmap>} [order]  elsewhere; then `paint` is for repairs only
  * @property {() => void} ready  a better picture has come, or can be made now: show it again
  */
-
-const REST_MS = 80;
 
 export class CachedPicture {
   visible = true;
@@ -36,8 +35,7 @@ export class CachedPicture {
   #job = null;
   /** What was shown last. @type {Wanted | null} */
   #shown = null;
-  #resting = 0;
-  /** How the picture is to be renewed as soon as the frame is on screen. @type {{wide: boolean} | null} */
+  /** How the picture is to be renewed as soon as the frame is on screen. @type {Use | null} */
   #planned = null;
   #painter;
 
@@ -71,56 +69,49 @@ export class CachedPicture {
    * Shows the picture as it is wanted.
    *
    * @param {Wanted} wanted
+   * @param {{before: View, still: boolean}} movement  of the photo on screen
    * @returns {boolean} whether the picture is up to date and sharp
    */
-  show(wanted) {
-    const before = this.#shown;
+  show(wanted, movement) {
+    if (this.#shown && !isSameWindow(this.#shown, wanted)) this.discard();
     this.#shown = wanted;
-    if (before && !isSameWindow(before, wanted)) this.discard();
-    const good = this.#care(before?.view ?? wanted.view, wanted);
+    this.#see(wanted, movement);
     this.#place(wanted.view);
-    return good || !this.#painter.order && this.#drawn !== null && isSharp(this.#drawn, wanted);
+    return !this.#stale && this.#drawn !== null && isSharp(this.#drawn, wanted) && covers(this.#drawn, wanted);
   }
 
-  /** Sees to it that there is a picture, now and soon; says whether this one is as good as can be. @type {(before: View, wanted: Wanted) => boolean} */
-  #care(before, wanted) {
+  /** Sees to it that there is a picture, now and soon. @type {(wanted: Wanted, movement: {before: View, still: boolean}) => void} */
+  #see(wanted, { before, still }) {
     const { view } = wanted;
-    clearTimeout(this.#resting);
     const drawn = this.#stale ? null : this.#drawn;
-    const moving = view !== before;
-    if (!drawn || !covers(drawn, wanted) || (!moving && !isSharp(drawn, wanted))) {
-      this.#renew(wanted, { wide: false });
-      return false;
-    }
+    if (!drawn || !covers(drawn, wanted)) return this.#renew(wanted, "moving");
+    const sharp = isSharp(drawn, wanted);
+    if (still && !sharp) return this.#renew(wanted, "moving");
     const lasts = covers(drawn, { ...wanted, view: goneOn(before, view) });
-    if (isSharp(drawn, wanted)) {
-      if (!lasts) this.#plan({ wide: false });
-      return true;
-    }
-    const zooming = view.scale !== before.scale;
-    if (!zooming || !lasts || isOverstretched(drawn, view)) this.#plan({ wide: view.scale < before.scale });
-    this.#resting = window.setTimeout(() => this.#painter.ready(), REST_MS);
-    return false;
+    if (sharp) {
+      if (!lasts) this.#plan("moving");
+    } else if (!lasts || isOverstretched(drawn, view))
+      this.#plan(view.scale < before.scale ? "shrinking" : "enlarging");
   }
 
-  /** @type {(how: {wide: boolean}) => void} */
-  #plan(how) {
+  /** @type {(use: Use) => void} */
+  #plan(use) {
     if (!this.#planned) afterFrame(() => this.#carryOut());
-    this.#planned = how;
+    this.#planned = use;
   }
 
   #carryOut() {
-    const how = this.#planned;
+    const use = this.#planned;
     this.#planned = null;
-    if (!how || !this.#shown) return;
-    this.#renew(this.#shown, how);
+    if (!use || !this.#shown) return;
+    this.#renew(this.#shown, use);
     this.#place(this.#shown.view);
   }
 
-  /** @type {(wanted: Wanted, how: {wide: boolean}) => void} */
-  #renew(wanted, how) {
+  /** @type {(wanted: Wanted, use: Use) => void} */
+  #renew(wanted, use) {
     const { order, paint } = this.#painter;
-    const extent = extentOf(wanted, how);
+    const extent = extentOf(wanted, use);
     if (!order) {
       this.#canvas.clear(extent);
       this.#drawn = extent;

@@ -12,16 +12,24 @@ import { toScreen } from "../geometry/view.js";
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {{view: View, width: number, height: number, ratio: number}} Extent  of a picture, whose top left corner is the origin of `view`; CSS pixels, and device pixels in one of them */
 /**
- * What is to be seen: `content` is all that there is to draw, image pixels.
+ * What is to be seen: `content` is all that there is to draw, image pixels; lines and words of it reach
+ * `beyond` its edges, CSS pixels.
  *
- * @typedef {{view: View, size: Size, ratio: number, content: Bounds}} Wanted
+ * @typedef {{view: View, size: Size, ratio: number, content: Bounds, beyond: number}} Wanted
  */
 
-/** How far a picture reaches beyond the window, CSS pixels. */
+/**
+ * What a picture is made for: to be looked at and moved, or to be stretched while the photo is enlarged or
+ * shrunk by and by.
+ *
+ * @typedef {"moving" | "enlarging" | "shrinking"} Use
+ */
+
+/** How far a picture reaches beyond the window that may be moved, CSS pixels. */
 const MARGIN = 192;
 /** How far beyond it, of the window's width and height, one that is made while zooming out. */
 const WIDE = 0.5;
-/** How much coarser that one is: so it is made as quickly as another. */
+/** How much coarser those are that are made while zooming: they are soon made, and soon on screen. */
 const COARSER = 2;
 /** A picture stretched or shrunk further shows lines too thick or too thin. */
 const MOST_STRETCH = 2;
@@ -31,14 +39,12 @@ const AHEAD = 2;
 /**
  * The extent of a picture that shows what is wanted, and what lies around it as far as there is anything.
  *
- * @param {Wanted} wanted
- * @param {{wide: boolean}} how  reaching far rather than sharp
- * @returns {Extent}
+ * @type {(wanted: Wanted, use: Use) => Extent}
  */
-export function extentOf({ view, size, ratio, content }, { wide }) {
-  const fine = wide ? ratio / COARSER : ratio;
-  const around = wide ? { x: WIDE * size.width, y: WIDE * size.height } : { x: MARGIN, y: MARGIN };
-  const there = onScreen(content, view);
+export function extentOf({ view, size, ratio, content, beyond }, use) {
+  const fine = use === "moving" ? ratio : ratio / COARSER;
+  const around = marginOf(size, use);
+  const there = grown(onScreen(content, view), beyond);
   /** @type {(value: number) => number} */
   const down = (value) => Math.floor(value * fine) / fine;
   const [left, top] = [down(Math.max(-around.x, there.x0)), down(Math.max(-around.y, there.y0))];
@@ -50,6 +56,12 @@ export function extentOf({ view, size, ratio, content }, { wide }) {
     height: Math.max(1, Math.ceil((bottom - top) * fine)) / fine,
     ratio: fine,
   };
+}
+
+/** @type {(size: Size, use: Use) => {x: number, y: number}} */
+function marginOf({ width, height }, use) {
+  if (use === "moving") return { x: MARGIN, y: MARGIN };
+  return use === "shrinking" ? { x: WIDE * width, y: WIDE * height } : { x: 0, y: 0 };
 }
 
 /** Where a picture lies on screen. @type {(extent: Extent, view: View) => {x: number, y: number, stretch: number}} */

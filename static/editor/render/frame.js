@@ -5,11 +5,12 @@
  * @module
  */
 
-import { grown, joined } from "../geometry/bounds.js";
+import { joined } from "../geometry/bounds.js";
 import { reachOf } from "../geometry/shapes.js";
 import { CachedPicture } from "./cached_picture.js";
 import { Loupe } from "./loupe.js";
 import { Overlay } from "./overlay.js";
+import { Movement } from "./movement.js";
 import { crowdOf, nearTo, paint } from "./paint.js";
 import { PaintOrders } from "./paint_orders.js";
 import { photoFilter } from "./photo_filter.js";
@@ -25,7 +26,7 @@ const TIMINGS_KEPT = 4096;
 const MANY = 60;
 
 /** How far from the caps anything of them may be drawn: lines, words. */
-const AROUND_PX = 64;
+const BEYOND_PX = 64;
 
 export class Frame {
   /** @type {Timing[]} */
@@ -42,6 +43,7 @@ export class Frame {
   #sketches;
   #photos;
   #filter = "";
+  #movement = new Movement(() => this.ask());
   #loupe;
   /** Where the pointer is, CSS pixels of the host; null where it is elsewhere. @type {import("../protocol.js").Point | null} */
   #pointer = null;
@@ -194,10 +196,11 @@ export class Frame {
     const photo = photoBounds(this.#state.image);
     this.#photo.visible = layers.visible.photo;
     this.#caps.visible = !layers.allHidden;
-    const photoShown = this.#photo.show({ view, size, ratio, content: photo });
-    const around = grown(joined(photo, items.bounds ?? photo), AROUND_PX / view.scale);
-    const capsShown = this.#caps.show({ view, size, ratio, content: around });
-    this.#overlay.draw(this.#state, ratio, this.#sketches());
+    const movement = this.#movement.follow(view);
+    const photoShown = this.#photo.show({ view, size, ratio, content: photo, beyond: 0 }, movement);
+    const content = joined(photo, items.bounds ?? photo);
+    const capsShown = this.#caps.show({ view, size, ratio, content, beyond: BEYOND_PX }, movement);
+    this.#overlay.draw(this.#state, ratio, this.#sketches(), movement);
     this.#drawLoupe();
     this.#note(started);
     if (photoShown && capsShown) for (const then of this.#whenComplete.splice(0)) then();
