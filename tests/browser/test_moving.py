@@ -140,3 +140,19 @@ def test_after_zooming_and_moving_outlines_are_as_thin_as_before(tab: Tab) -> No
         pan(tab, (120, 40))
         tab.page.mouse.move(*tab.screen((100, 390)))
         assert_left_edge_is_sharp(tab)
+
+
+def test_the_focus_is_seen_around_a_photo_that_fills_the_window(tab: Tab) -> None:
+    look_at(tab, "noise.png")
+    turn_wheel(tab, 12)
+    tab.page.locator("#fairyring-editor").focus()
+    tab.press("v")
+    assert tab.page.evaluate("document.activeElement.matches('#fairyring-editor:focus-visible')")
+    window = tab.page.locator("#fairyring-editor").bounding_box()
+    assert window is not None
+    corner = tab.page.evaluate("([x, y]) => window.fairyring.view.toImage(x, y)", [window["x"], 420])
+    edge = pixels(
+        tab, (corner["x"], corner["y"]), (corner["x"] + 4 / scale(tab), corner["y"] + 4 / scale(tab))
+    )
+    # The blue of the ring, in OpenCV's order.
+    assert edge[:3, :2].reshape(-1, 3).tolist() == [[0xFF, 0xC8, 0x45]] * 6
