@@ -109,21 +109,28 @@ def list_ids(connection: Connection, which: ImageFilter) -> list[int]:
 
 
 def position_in_list(connection: Connection, which: ImageFilter, image_id: int) -> ListPosition:
-    """Where the image stands, and its neighbours.
+    """Where the image stands, and its neighbours; by gain those that it had while it was to do.
+
+    What is done goes to the end there, and whoever has just said so goes on to the next, not to the end.
 
     Raises:
         StoreError: the project has no such image.
     """
     require_image(connection, image_id)
     condition = _condition(which)
-    ids = list(connection.execute(_ordered(which, or_(condition, image.c.id == image_id))).scalars())
+    listed = or_(condition, image.c.id == image_id)
+    ids = list(connection.execute(_ordered(which, listed)).scalars())
     position = ids.index(image_id)
+    walked = ids
+    if which.sort == "gain":
+        walked = list(connection.execute(_ordered(which, listed, here=image_id)).scalars())
+    at = walked.index(image_id)
     found = connection.execute(select(image.c.id).where(image.c.id == image_id, condition)).first()
     return ListPosition(
         position=position,
         count=len(ids) if found else len(ids) - 1,
-        previous=ids[position - 1] if position else None,
-        next=ids[position + 1] if position + 1 < len(ids) else None,
+        previous=walked[at - 1] if at else None,
+        next=walked[at + 1] if at + 1 < len(walked) else None,
     )
 
 
@@ -168,13 +175,13 @@ def sort_name(file_name: str) -> str:
     return re.sub(r"[0-9]+", lambda digits: digits.group().zfill(12), file_name.casefold())
 
 
-def _ordered(which: ImageFilter, condition: ColumnElement[bool]) -> AnySelect:
-    """The numbers of images, in order."""
+def _ordered(which: ImageFilter, condition: ColumnElement[bool], *, here: int | None = None) -> AnySelect:
+    """The numbers of images, in order; by gain the one ``here`` stands as if it were still to do."""
     images = image
     if which.sort == "cdr":
         latest = and_(comparison.c.image == image.c.id, comparison.c.run == image.c.run)
         images = image.outerjoin(comparison, latest)
-    return select(image.c.id).select_from(images).where(condition).order_by(*_order(which))
+    return select(image.c.id).select_from(images).where(condition).order_by(*_order(which, here))
 
 
 def _condition(which: ImageFilter) -> ColumnElement[bool]:
@@ -204,36 +211,40 @@ def _last_said(says: Says) -> AnySelect:
     return select(verdict.c.image).where(verdict.c.sequence.in_(last), verdict.c.says == says)
 
 
-def _order(which: ImageFilter) -> list[ColumnElement[Any]]:
+def _order(which: ImageFilter, here: int | None) -> list[ColumnElement[Any]]:
     columns: dict[Sort, ColumnElement[Any]] = {
         "name": image.c.sort_name,
         "added": image.c.id,
         "caps": image.c.caps,
         "cdr": comparison.c.cdr_worst,
-        "gain": _turn(),
+        "gain": _turn(here),
     }
     column = columns[which.sort]
     directed = column.desc() if which.descending else column.asc()
     if which.sort == "cdr":
         return [directed.nulls_last(), image.c.sort_name, image.c.id]
     if which.sort == "gain":
-        return [directed, _gain().desc(), image.c.sort_name, image.c.id]
+        return [directed, _gain(here).desc(), image.c.sort_name, image.c.id]
     return [directed, image.c.sort_name, image.c.id]
 
 
-def _gain() -> ColumnElement[float]:
+def _to_do(here: int | None) -> ColumnElement[bool]:
+    return or_(image.c.status == "new", image.c.id == here)
+
+
+def _gain(here: int | None) -> ColumnElement[float]:
     """How many wrong caps to expect, as scores are probabilities; none once an image is done."""
     doubts = select(func.sum(1 - prediction.c.score)).where(
         prediction.c.image == image.c.id, prediction.c.run == image.c.run
     )
-    return case((image.c.status == "new", func.coalesce(doubts.scalar_subquery(), 0.0)), else_=-1.0)
+    return case((_to_do(here), func.coalesce(doubts.scalar_subquery(), 0.0)), else_=-1.0)
 
 
-def _turn() -> ColumnElement[int]:
+def _turn(here: int | None) -> ColumnElement[int]:
     """First the image of most gain of every light and form, then the second of each, and so on."""
-    kind = (image.c.light, image.c.form, case((image.c.status == "new", 0), else_=1))
-    turn = func.row_number().over(partition_by=kind, order_by=(_gain().desc(), image.c.id))
-    return case((image.c.status == "new", turn), else_=turn + LAST)
+    kind = (image.c.light, image.c.form, case((_to_do(here), 0), else_=1))
+    turn = func.row_number().over(partition_by=kind, order_by=(_gain(here).desc(), image.c.id))
+    return case((_to_do(here), turn), else_=turn + LAST)
 
 
 def _row(row: AnyRow) -> ImageRow:

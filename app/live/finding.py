@@ -8,6 +8,7 @@ import logging
 import anyio.to_thread
 
 from fairyring.app.caps.found_caps import Asked, cap_found, near
+from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import FindCap, FoundCap
@@ -69,25 +70,11 @@ class Finding:
         self._session.send(FoundCap(seq=request.seq, image=request.image, visible=visible, score=score))
 
     async def _found(self, request: FindCap) -> Found:
-        caps, project = self._session.caps, self._workspace.project
+        caps = self._session.caps
         if caps is None or caps.image.id != request.image:
             return None
-        weights = await anyio.to_thread.run_sync(require_weights, project)
-        path = await anyio.to_thread.run_sync(project.originals.path_of, caps.image)
-        live = [a for a in caps.annotations.values() if a.cap.visible and not a.deleted]
-        others = [a.cap.visible for a in live if a.uid != request.besides]
-        taken = {a.cap.prediction for a in caps.annotations.values()}
-        others += [p.visible for p in caps.predictions if p.id not in taken]
-        box = request.box
-        places = request.points or ([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)] if box else [])
-        asked = Asked(
-            photo=path,
-            weights=weights,
-            points=request.points,
-            wanted=request.wanted,
-            box=box,
-            front=await anyio.to_thread.run_sync(near, others, places),
-        )
+        # All in one thread: who rests with the pointer waits for every change of threads.
+        asked = await anyio.to_thread.run_sync(self._asked_of, request, caps)
         answer = self._workspace.crew.network.ask(lambda: (cap_found, (asked,)), urgency=URGENT)
         waited_for = asyncio.wrap_future(answer)
         self._asked = request, waited_for
@@ -96,3 +83,21 @@ class Finding:
         finally:
             self._asked = None
         return None if waited_for.cancelled() else waited_for.result()
+
+    def _asked_of(self, request: FindCap, caps: ImageCaps) -> Asked:
+        """What the worker needs to know. For a thread."""
+        project = self._workspace.project
+        live = [a for a in caps.annotations.values() if a.cap.visible and not a.deleted]
+        others = [a.cap.visible for a in live if a.uid != request.besides]
+        taken = {a.cap.prediction for a in caps.annotations.values()}
+        others += [p.visible for p in caps.predictions if p.id not in taken]
+        box = request.box
+        places = request.points or ([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)] if box else [])
+        return Asked(
+            photo=project.originals.path_of(caps.image),
+            weights=require_weights(project),
+            points=request.points,
+            wanted=request.wanted,
+            box=box,
+            front=near(others, places),
+        )

@@ -6,17 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Locator
-from playwright.sync_api import Error as NotThere
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
-from fairyring.storage.contents import load_annotations, load_predictions
-from fairyring.storage.images import get_image
+from fairyring.storage.contents import load_predictions
 from fairyring.storage.project import open_project
-from fairyring.storage.records import Annotation, GivenVerdict
-from fairyring.storage.verdicts import verdicts_of
 from tests.support.annotated_beds import CDR, make_annotated_beds, uid_of
+from tests.support.desk import caps_of, on_image, said_of, say_yes, selected, status_of
 
 OpenTab = Callable[..., Tab]
 
@@ -24,35 +20,6 @@ OpenTab = Callable[..., Tab]
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     return make_annotated_beds(tmp_path, count=3)
-
-
-def said_of(project: Path, image: int) -> list[GivenVerdict]:
-    with open_project(project) as opened, opened.read() as connection:
-        return verdicts_of(connection, image)
-
-
-def status_of(project: Path, image: int) -> str:
-    with open_project(project) as opened, opened.read() as connection:
-        return get_image(connection, image).status
-
-
-def caps_of(project: Path, image: int) -> dict[str, Annotation]:
-    with open_project(project) as opened, opened.read() as connection:
-        return {each.uid: each for each in load_annotations(connection, image)}
-
-
-def on_image(tab: Tab, number: int) -> None:
-    tab.wait_for(f"window.fairyring.state.image.id === {number}")
-
-
-def selected(tab: Tab, uid: str) -> None:
-    tab.wait_for(f"window.fairyring.state.selection[0] === {uid!r}")
-
-
-def say_yes(tab: Tab) -> None:
-    """To the question about the prediction that nobody has decided upon."""
-    tab.page.get_by_role("alertdialog").wait_for()
-    tab.press("Tab", "Enter")
 
 
 def test_differences_are_walked_through_decided_and_the_image_approved_by_keys_alone(
@@ -204,188 +171,3 @@ def test_outlines_take_turns_and_errors_are_enlarged_on_request(watched: Tab) ->
     assert watched.state("review.turn") is None
     watched.press("Shift+D")
     assert watched.state("review.on") is False
-
-
-def open_queue(tab: Tab) -> None:
-    tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_text("Queue", exact=True).click()
-
-
-def choose(tab: Tab, label: str, option: str) -> None:
-    tab.page.get_by_label(label).first.click()
-    tab.page.get_by_role("option", name=option).click()
-
-
-def test_a_queue_is_gone_through_with_the_agreement_and_taken_up_again_after_a_reload(
-    server: Server, open_tab: OpenTab
-) -> None:
-    tab = open_tab(server, name="Rev")
-    open_queue(tab)
-    tab.page.get_by_text("3 images wait for a review.").wait_for()
-    tab.page.get_by_role("button", name="Begin").click()
-    tab.page.get_by_text("0 of 3 done").wait_for()
-    tab.press("Shift+Enter")
-    say_yes(tab)
-    on_image(tab, 2)
-    tab.press("Shift+X")
-    tab.page.keyboard.type("Out of focus")
-    tab.press("Enter")
-    on_image(tab, 3)
-    # Wilson's interval of 1 in 2.
-    tab.page.get_by_text("2 of 3 done, agreement 50 % (9 to 91 %)").wait_for()
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.connection === 'online'")
-    tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_text("2 of 3 done, agreement 50 % (9 to 91 %)").wait_for()
-    tab.page.get_by_role("button", name="End the queue").click()
-    tab.page.get_by_text("1 image waits for a review.").wait_for()
-
-
-def test_a_random_sample_that_passes_has_the_rest_approved(tmp_path: Path, browser: Browser) -> None:
-    (tmp_path / "lot").mkdir()
-    project = make_annotated_beds(tmp_path / "lot", count=12)
-    server = Server(project)
-    server.start()
-    context = browser.new_context(viewport={"width": 1500, "height": 900})
-    try:
-        tab = Tab(context.new_page())
-        tab.enter(server.url, name="Rev")
-        open_queue(tab)
-        choose(tab, "Queue by", "random sample")
-        tab.page.get_by_text("12 of 12 images have to be looked at").wait_for()
-        tab.page.get_by_label("Wrong at most %").fill("40")
-        tab.press("Tab")
-        # Five wrong of twelve: scipy.stats.hypergeom(12, 5, 5).cdf(0) is 0.027, of 4 it is 0.071.
-        tab.page.get_by_text("5 of 12 images have to be looked at").wait_for()
-        tab.page.get_by_role("button", name="Begin").click()
-        tab.page.get_by_text("0 of 5 done").wait_for()
-        for done in range(1, 6):
-            tab.press("Shift+Enter")
-            say_yes(tab)
-            tab.page.locator(".fr-queue").get_by_text(f"{done} of 5 done").wait_for()
-        tab.page.get_by_role("button", name="Approve the other 7").click()
-        tab.page.get_by_text("7 images approved.").wait_for()
-    finally:
-        context.close()
-        server.stop()
-    assert [status_of(project, number) for number in range(1, 13)] == ["approved"] * 12
-    words = {v.words for number in range(1, 13) for v in said_of(project, number)}
-    assert words == {"", "By a sample: 0 of 5 wrong, 0 allowed"}
-
-
-def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
-    server: Server, open_tab: OpenTab
-) -> None:
-    tab = open_tab(server, name="Rev")
-    tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_role("button", name="Bring up to date").click()
-    caps = tab.page.get_by_role("group", name="Caps of all images")
-    caps.get_by_role("button", name="12 measured").wait_for()
-    worst = caps.locator(".fr-gallery button")
-    # Ada's second cap of each of the three images is the worst of its image.
-    assert [worst.nth(n).get_attribute("data-fairyring-select") for n in range(3)] == [
-        uid_of(image, 1) for image in (1, 2, 3)
-    ]
-    assert worst.first.locator("polygon").count() == 2
-    assert worst.first.locator("line").count() == 1
-    worst.nth(2).click()
-    on_image(tab, 3)
-    selected(tab, uid_of(3, 1))
-    assert tab.state("review.on") is True
-    tab.page.get_by_text("3 of 3 differences").wait_for()
-    caps.get_by_role("button", name="3 missed").click()
-    caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()
-    worst.first.click()
-    selected(tab, uid_of(1, 4))
-    caps.get_by_role("button", name="3 extra").click()
-    caps.get_by_text("1–3 of 3. Predicted, and not annotated.").wait_for()
-    worst.nth(1).click()
-    on_image(tab, 2)
-    tab.wait_for("window.fairyring.state.selection[0]?.startsWith('prediction:')")
-    (turned_down,) = tab.state("selection")
-    tab.press("Delete")
-    tab.saved()
-    # A page that is loaded anew knows of it, too.
-    tab.page.reload()
-    tab.wait_for("window.fairyring?.state.connection === 'online'")
-    tab.page.get_by_role("tab", name="Review").click()
-    caps.get_by_role("button", name="3 extra").click()
-    caps.get_by_text("Predicted, and not annotated.").wait_for()
-    worst.nth(1).click()
-    selected(tab, turned_down)
-    tab.page.get_by_text("extra: turned down").wait_for()
-    card = tab.page.get_by_label("Selected cap")
-    card.get_by_text(f"Prediction {turned_down.removeprefix('prediction:')}").wait_for()
-    tab.press("s")
-    tab.saved()
-    assert len(tab.state("shapes")) == 6
-    assert tab.page.get_by_role("button", name="Keep mine").count() == 0
-    tab.press("Escape", "f", "c")
-    # A circle around the cap that Ada drew, which is not selected, is a mark of that cap.
-    drag(tab, (400.0, 300.0), (444.0, 300.0))
-    selected(tab, uid_of(2, 4))
-    tab.saved()
-    assert len(tab.state("shapes")) == 6
-    tab.press("Shift+Enter")
-    tab.page.get_by_text("You have changed caps of bed_2.png").wait_for()
-
-
-def drag(tab: Tab, start: tuple[float, float], end: tuple[float, float]) -> None:
-    """From one point of the image to another."""
-    tab.page.mouse.move(*tab.screen(start))
-    tab.page.mouse.down()
-    tab.page.mouse.move(*tab.screen(end), steps=4)
-    tab.page.mouse.up()
-
-
-def hover_until_named(tab: Tab, words: Locator, *, across: float) -> None:
-    """Moves over the first plot until it names a point: one that is drawn anew has forgotten the pointer."""
-    drawn = tab.page.locator(".u-over").first
-    for _ in range(20):
-        try:
-            box = drawn.bounding_box(timeout=3000) or {"width": 0.0}
-            drawn.hover(position={"x": across * box["width"], "y": 20}, timeout=3000)
-            words.wait_for(timeout=1500)
-        except NotThere:
-            continue
-        return
-    raise AssertionError(f"The plot names no point {across:.0%} across")
-
-
-def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the_cap(
-    server: Server, open_tab: OpenTab
-) -> None:
-    tab = open_tab(server, name="Rev")
-    tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_role("button", name="Bring up to date").click()
-    plot = tab.page.get_by_role("group", name="CDR of each image, %")
-    plot.wait_for()
-    hover_until_named(tab, plot.get_by_text("2, bed_2.png: CDR"), across=0.5)
-    hover_until_named(tab, plot.get_by_text("3, bed_3.png: CDR"), across=0.9)
-    tab.page.mouse.down()
-    tab.page.mouse.up()
-    on_image(tab, 3)
-    selected(tab, uid_of(3, 1))
-    choose(tab, "Figures by", "annotator")
-    groups = tab.page.get_by_role("table", name="Groups of caps")
-    adas = groups.get_by_role("row", name="Ada")
-    assert adas.inner_text().split()[3:] == ["12", "3", "3"]
-    adas.get_by_role("button", name="3", exact=True).first.click()
-    caps = tab.page.get_by_role("group", name="Caps of all images")
-    caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()
-    caps.get_by_text("Only annotator: Ada").wait_for()
-    bed_2 = tab.page.locator("tr:has([data-fairyring-by=image])", has_text="bed_2.png")
-    bed_2.get_by_role("button", name="1", exact=True).last.click()
-    caps.get_by_text("1–1 of 1. Predicted, and not annotated.").wait_for()
-    caps.get_by_role("button", name="Show all").click()
-    caps.get_by_text("1–3 of 3. Predicted, and not annotated.").wait_for()
-    with tab.page.expect_download() as kept:
-        plot.get_by_role("link", name="CSV").click()
-    rows = kept.value.path().read_text().splitlines()
-    assert [row.split(",")[0] for row in rows] == ["image", "bed_1.png", "bed_2.png", "bed_3.png"]
-    svg = tab.page.request.get(f"{server.url}/review/shifts.svg").text()
-    assert svg.startswith("<svg")
-    assert svg.count('class="dot"') == 12
-    report = tab.page.request.get(f"{server.url}/review/report.html?image=2").text()
-    assert "(Table 4)" in report
-    assert "bed_1.png" not in report

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from urllib.parse import urlsplit
 
+import pytest
 from playwright.sync_api import Browser, BrowserContext
 
 from fairyring.app.bench.browser.line import line_to
-from fairyring.app.bench.browser.tab import Tab
+from fairyring.app.bench.browser.tab import STANDS_STILL, Tab
 from fairyring.app.bench.serving import Server
 
 SOCKETS = 2
@@ -53,3 +55,50 @@ def test_a_first_visit_fetches_each_file_once_and_later_ones_none(browser: Brows
     assert announced <= modules
     assert {url.rsplit("/", 1)[1] for url in modules - announced} <= NOT_IMPORTED
     assert [text for text in complaints if "Security Policy" in text or "preload" in text] == []
+
+
+FOLLOW_PHOTO = """
+    window.places = [];
+    const look = () => {
+        const shown = window.fairyring?.state.image && document.querySelector("[data-fairyring-area]");
+        if (shown) {
+            const [a, b] = [[0, 0], [100, 100]].map(([x, y]) => window.fairyring.view.toScreen(x, y));
+            window.places.push([a.x, a.y, b.x, b.y]);
+        }
+        requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+"""
+
+
+@pytest.mark.parametrize(("window", "panel"), [(1500, 384), (1024, 308)])
+def test_the_photo_stands_where_it_is_first_seen(
+    browser: Browser, server: Server, window: int, panel: int
+) -> None:
+    context = browser.new_context(viewport={"width": window, "height": 860})
+    context.add_init_script(FOLLOW_PHOTO)
+    tab = Tab(context.new_page())
+    tab.enter(server.url, name="Ada")
+    region = tab.page.locator("[data-dock-region=right]")
+    tab.page.get_by_role("tab", name="View", exact=True).click()
+    tab.page.wait_for_timeout(1000)
+    box = region.bounding_box()
+    places = tab.page.evaluate("window.places")
+    context.close()
+    assert box is not None
+    assert box["width"] == panel
+    assert len({tuple(place) for place in places}) == 1
+
+
+def test_the_panel_is_as_wide_as_somebody_draws_it(server: Server, open_tab: Callable[..., Tab]) -> None:
+    tab = open_tab(server)
+    tab.page.get_by_role("tab", name="View", exact=True).wait_for()
+    edge = 1500 - 384
+    tab.page.mouse.move(edge + 2, 400)
+    tab.page.mouse.down()
+    tab.page.mouse.move(edge - 98, 400, steps=8)
+    tab.page.mouse.up()
+    tab.page.evaluate(STANDS_STILL)
+    box = tab.page.locator("#fairyring-editor").bounding_box()
+    assert box is not None
+    assert box["width"] == pytest.approx(edge - 100, abs=20)

@@ -79,7 +79,8 @@ export class Pointer {
     this.at = [event.clientX - box.left, event.clientY - box.top];
     const { shiftKey: shift, altKey: alt } = event;
     const image = toImage(this.#state.viewport.view, ...this.at);
-    return { screen: this.at, image, shift, alt, ctrl: event.ctrlKey || event.metaKey };
+    const ctrl = event.ctrlKey || event.metaKey;
+    return { screen: this.at, image, shift, alt, ctrl, time: event.timeStamp };
   }
 
   /** @type {(event: PointerEvent) => void} */
@@ -112,11 +113,11 @@ export class Pointer {
   }
 
   /** Ctrl changes what a press would do, also while the pointer rests. @type {(event: KeyboardEvent) => void} */
-  #modified({ key, shiftKey: shift, altKey: alt, ctrlKey, metaKey }) {
+  #modified({ key, shiftKey: shift, altKey: alt, ctrlKey, metaKey, timeStamp: time }) {
     if (key !== "Control" && key !== "Meta") return;
     if (this.#pressed || this.#panning || !this.#host.matches(":hover")) return;
     const image = toImage(this.#state.viewport.view, ...this.at);
-    this.#tool().hover({ screen: this.at, image, shift, alt, ctrl: ctrlKey || metaKey });
+    this.#tool().hover({ screen: this.at, image, shift, alt, ctrl: ctrlKey || metaKey, time });
     this.cursor();
   }
 

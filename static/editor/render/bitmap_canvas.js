@@ -5,7 +5,7 @@
  * @module
  */
 
-/** @typedef {import("../geometry/view.js").Size} Size */
+/** @typedef {{width: number, height: number, ratio: number}} Extent  CSS pixels, and device pixels in one of them */
 
 export class BitmapCanvas {
   /** On screen. */
@@ -13,9 +13,9 @@ export class BitmapCanvas {
   #screen;
   /** Off screen. */
   #context = offscreenContext();
-  /** @type {Size} */
-  #size = { width: 0, height: 0 };
-  /** Something is drawn off screen that is not shown yet. */
+  /** @type {Extent} */
+  #extent = { width: 1, height: 1, ratio: 1 };
+  /** Something is drawn that is not shown yet. */
   #fresh = false;
   /** Drawn elsewhere, to be shown as it is. @type {ImageBitmap | null} */
   #bitmap = null;
@@ -33,53 +33,60 @@ export class BitmapCanvas {
   get context() {
     if (this.#bitmap) this.#copy(this.#bitmap);
     else if (!this.#fresh) this.#copy(this.canvas);
-    this.#bitmap?.close();
-    this.#bitmap = null;
+    this.#forgetBitmap();
     this.#fresh = true;
     return this.#context;
   }
 
   /** A canvas is empty once its bitmap is shown. @type {(picture: CanvasImageSource) => void} */
   #copy(picture) {
+    this.#empty();
     this.#context.save();
     this.#context.resetTransform();
     this.#context.drawImage(picture, 0, 0);
     this.#context.restore();
   }
 
-  /**
-   * Starts an empty drawing; the screen keeps the old one until `show`.
-   *
-   * @param {Size} size  CSS pixels
-   * @param {number} ratio  device pixels per CSS pixel
-   */
-  clear(size, ratio) {
-    const { canvas } = this.#context;
-    canvas.width = Math.round(size.width * ratio);
-    canvas.height = Math.round(size.height * ratio);
-    this.#size = size;
+  /** Starts an empty drawing; the screen keeps the old one until `show`. @type {(extent: Extent) => void} */
+  clear(extent) {
+    this.#forgetBitmap();
+    this.#extent = extent;
     this.#fresh = true;
-    this.#bitmap?.close();
-    this.#bitmap = null;
+    this.#empty();
+  }
+
+  #empty() {
+    const { width, height, ratio } = this.#extent;
+    const { canvas } = this.#context;
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
     this.#context.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** Takes a picture drawn elsewhere, as large as the canvas; it belongs to the canvas from now on. @type {(bitmap: ImageBitmap) => void} */
-  put(bitmap) {
+  /** Takes a picture drawn elsewhere; it belongs to the canvas from now on. @type {(bitmap: ImageBitmap, extent: Extent) => void} */
+  put(bitmap, extent) {
+    this.#forgetBitmap();
+    this.#extent = extent;
     this.#bitmap = bitmap;
+    this.#fresh = true;
+  }
+
+  #forgetBitmap() {
+    this.#bitmap?.close();
+    this.#bitmap = null;
   }
 
   /** Brings to the screen what has been drawn since the last time. */
   show() {
     if (!this.#fresh) return;
     this.#fresh = false;
-    const { canvas } = this.#context;
-    if (this.canvas.width !== canvas.width) this.canvas.width = canvas.width;
-    if (this.canvas.height !== canvas.height) this.canvas.height = canvas.height;
-    this.#screen.transferFromImageBitmap(this.#bitmap ?? canvas.transferToImageBitmap());
+    const bitmap = this.#bitmap ?? this.#context.canvas.transferToImageBitmap();
     this.#bitmap = null;
-    this.canvas.style.width = `${this.#size.width}px`;
-    this.canvas.style.height = `${this.#size.height}px`;
+    if (this.canvas.width !== bitmap.width) this.canvas.width = bitmap.width;
+    if (this.canvas.height !== bitmap.height) this.canvas.height = bitmap.height;
+    this.#screen.transferFromImageBitmap(bitmap);
+    this.canvas.style.width = `${this.#extent.width}px`;
+    this.canvas.style.height = `${this.#extent.height}px`;
   }
 }
 

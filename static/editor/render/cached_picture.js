@@ -1,7 +1,7 @@
 /**
  * A picture that outlives the frame it was drawn in. It is drawn with a margin around the viewport and then
- * only moved (and, while zooming, stretched) by the compositor, until a fresh one is ready to take its
- * place. While it is being zoomed and still fills the viewport, none is made.
+ * only moved (and, while zooming, stretched) by the compositor. A fresh one is made between two frames, in
+ * time for a movement that goes on as it does, so that no frame waits for one.
  *
  * @module
  */
@@ -9,11 +9,13 @@
 import { joined, overlap } from "../geometry/bounds.js";
 import { toScreen, visibleBounds } from "../geometry/view.js";
 import { BitmapCanvas } from "./bitmap_canvas.js";
+import { covers, extentOf, goneOn, isOverstretched, isSharp, placeOf } from "./extents.js";
 
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
-/** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {import("../geometry/view.js").View} View */
-/** @typedef {{view: View, width: number, height: number, ratio: number}} Extent  what a picture is to show, CSS pixels */
+/** @typedef {import("./extents.js").Extent} Extent */
+/** @typedef {import("./extents.js").Use} Use */
+/** @typedef {import("./extents.js").Wanted} Wanted */
 /** @typedef {OffscreenCanvasRenderingContext2D} Context */
 
 /**
@@ -23,24 +25,18 @@ import { BitmapCanvas } from "./bitmap_canvas.js";
  * @property {() => void} ready  a better picture has come, or can be made now: show it again
  */
 
-const MARGIN = 96;
-const REST_MS = 80;
-const MOST_STRETCH = 2;
-
 export class CachedPicture {
   visible = true;
   #canvas;
-  /** How the picture was drawn. @type {View | null} */
+  /** How the picture was drawn. @type {Extent | null} */
   #drawn = null;
-  /** @type {Size} */
-  #size = { width: 0, height: 0 };
-  #ratio = 1;
   #stale = true;
   /** The order being carried out, and what has changed since. @type {{repairs: Bounds[]} | null} */
   #job = null;
-  /** What was shown last. @type {View | null} */
+  /** What was shown last. @type {Wanted | null} */
   #shown = null;
-  #resting = 0;
+  /** How the picture is to be renewed as soon as the frame is on screen. @type {Use | null} */
+  #planned = null;
   #painter;
 
   /**
@@ -70,66 +66,75 @@ export class CachedPicture {
   }
 
   /**
-   * Shows the picture as `view` wants it.
+   * Shows the picture as it is wanted.
    *
-   * @param {View} view
-   * @param {Size} size
-   * @param {number} ratio device pixels per CSS pixel
+   * @param {Wanted} wanted
+   * @param {{before: View, still: boolean}} movement  of the photo on screen
    * @returns {boolean} whether the picture is up to date and sharp
    */
-  show(view, size, ratio) {
-    if (size.width !== this.#size.width || size.height !== this.#size.height || ratio !== this.#ratio) {
-      this.#size = size;
-      this.#ratio = ratio;
-      this.discard();
-    }
-    const good = !this.#stale && this.#drawn !== null && covers(this.#drawn, view);
-    if (!good && !this.#mayRest(view)) this.#renew(view);
-    this.#shown = view;
-    this.#place(view);
-    return good || !this.#painter.order;
+  show(wanted, movement) {
+    if (this.#shown && !isSameWindow(this.#shown, wanted)) this.discard();
+    this.#shown = wanted;
+    this.#see(wanted, movement);
+    this.#place(wanted.view);
+    return !this.#stale && this.#drawn !== null && isSharp(this.#drawn, wanted) && covers(this.#drawn, wanted);
   }
 
-  /** Whether a stretched picture will do until the view has come to rest. @type {(view: View) => boolean} */
-  #mayRest(view) {
-    clearTimeout(this.#resting);
-    const drawn = this.#drawn;
-    if (this.#stale || !drawn || view === this.#shown || !fills(drawn, view, this.#size)) return false;
-    this.#resting = window.setTimeout(() => this.#painter.ready(), REST_MS);
-    return true;
+  /** Sees to it that there is a picture, now and soon. @type {(wanted: Wanted, movement: {before: View, still: boolean}) => void} */
+  #see(wanted, { before, still }) {
+    const { view } = wanted;
+    const drawn = this.#stale ? null : this.#drawn;
+    if (!drawn || !covers(drawn, wanted)) return this.#renew(wanted, "moving");
+    const sharp = isSharp(drawn, wanted);
+    if (still && !sharp) return this.#renew(wanted, "moving");
+    const lasts = covers(drawn, { ...wanted, view: goneOn(before, view) });
+    if (sharp) {
+      if (!lasts) this.#plan("moving");
+    } else if (!lasts || isOverstretched(drawn, view))
+      this.#plan(view.scale < before.scale ? "shrinking" : "enlarging");
   }
 
-  /** @type {(view: View) => void} */
-  #renew(view) {
+  /** @type {(use: Use) => void} */
+  #plan(use) {
+    if (!this.#planned) afterFrame(() => this.#carryOut());
+    this.#planned = use;
+  }
+
+  #carryOut() {
+    const use = this.#planned;
+    this.#planned = null;
+    if (!use || !this.#shown) return;
+    this.#renew(this.#shown, use);
+    this.#place(this.#shown.view);
+  }
+
+  /** @type {(wanted: Wanted, use: Use) => void} */
+  #renew(wanted, use) {
     const { order, paint } = this.#painter;
-    const extent = { view: ownView(view), ...ownSize(this.#size), ratio: this.#ratio };
+    const extent = extentOf(wanted, use);
     if (!order) {
-      this.#clear(view);
+      this.#canvas.clear(extent);
+      this.#drawn = extent;
+      this.#stale = false;
       paint(this.#canvas.context, extent.view, visibleBounds(extent.view, extent));
     } else if (!this.#job) {
       /** @type {{repairs: Bounds[]}} */
       const job = { repairs: [] };
       this.#job = job;
-      void order(extent).then((bitmap) => this.#take(job, view, bitmap));
+      void order(extent).then((bitmap) => this.#take(job, extent, bitmap));
     }
   }
 
-  /** @type {(job: {repairs: Bounds[]}, view: View, bitmap: ImageBitmap) => void} */
-  #take(job, view, bitmap) {
-    if (this.#job === job) {
-      this.#job = null;
-      this.#clear(view);
-      this.#canvas.put(bitmap);
-      this.repair(job.repairs);
-      this.#painter.ready();
-    } else bitmap.close();
-  }
-
-  /** @type {(view: View) => void} */
-  #clear(view) {
-    this.#canvas.clear(ownSize(this.#size), this.#ratio);
-    this.#drawn = view;
+  /** @type {(job: {repairs: Bounds[]}, extent: Extent, bitmap: ImageBitmap) => void} */
+  #take(job, extent, bitmap) {
+    if (this.#job !== job) return bitmap.close();
+    this.#job = null;
+    this.#canvas.put(bitmap, extent);
+    this.#drawn = extent;
     this.#stale = false;
+    this.repair(job.repairs);
+    if (this.#shown) this.#place(this.#shown.view);
+    this.#painter.ready();
   }
 
   /** @type {(view: View) => void} */
@@ -139,9 +144,7 @@ export class CachedPicture {
     canvas.hidden = !drawn || !this.visible;
     if (!drawn) return;
     this.#canvas.show();
-    const stretch = view.scale / drawn.scale;
-    const x = view.x - (drawn.x + MARGIN) * stretch;
-    const y = view.y - (drawn.y + MARGIN) * stretch;
+    const { x, y, stretch } = placeOf(drawn, view);
     const transform = `translate(${x}px, ${y}px)${stretch === 1 ? "" : ` scale(${stretch})`}`;
     if (canvas.style.transform !== transform) canvas.style.transform = transform;
   }
@@ -153,14 +156,13 @@ export class CachedPicture {
    */
   repair(rects) {
     this.#job?.repairs.push(...rects);
-    const view = this.#drawn;
-    if (!view || this.#stale) return;
-    for (const rect of mergedRects(rects)) this.#repairOne(this.#canvas.context, ownView(view), rect);
+    const drawn = this.#drawn;
+    if (!drawn || this.#stale) return;
+    for (const rect of mergedRects(rects)) this.#repairOne(drawn, rect);
   }
 
-  /** @type {(context: Context, view: View, rect: Bounds) => void} */
-  #repairOne(context, view, rect) {
-    const { width, height } = ownSize(this.#size);
+  /** @type {(drawn: Extent, rect: Bounds) => void} */
+  #repairOne({ view, width, height }, rect) {
     const [left, top] = toScreen(view, rect.x0, rect.y0).map((value) => Math.max(0, Math.floor(value) - 4));
     const [x1, y1] = toScreen(view, rect.x1, rect.y1);
     const size = {
@@ -168,6 +170,7 @@ export class CachedPicture {
       height: Math.min(height, Math.ceil(y1) + 4) - top,
     };
     if (size.width <= 0 || size.height <= 0) return;
+    const { context } = this.#canvas;
     context.save();
     context.beginPath();
     context.rect(left, top, size.width, size.height);
@@ -178,30 +181,19 @@ export class CachedPicture {
   }
 }
 
-/** @type {(size: Size) => Size} */
-function ownSize({ width, height }) {
-  return { width: width + 2 * MARGIN, height: height + 2 * MARGIN };
+/** @type {(before: Wanted, now: Wanted) => boolean} */
+function isSameWindow({ size, ratio }, now) {
+  return size.width === now.size.width && size.height === now.size.height && ratio === now.ratio;
 }
 
-/** The view of the picture's own pixels, whose origin lies in the margin. @type {(view: View) => View} */
-function ownView(view) {
-  return { ...view, x: view.x + MARGIN, y: view.y + MARGIN };
-}
-
-/** @type {(drawn: View, wanted: View) => boolean} */
-function covers(drawn, wanted) {
-  const close = Math.abs(drawn.x - wanted.x) <= MARGIN && Math.abs(drawn.y - wanted.y) <= MARGIN;
-  return close && drawn.scale === wanted.scale;
-}
-
-/** Whether the picture, stretched but not much, leaves nothing of the viewport bare. @type {(drawn: View, wanted: View, size: Size) => boolean} */
-function fills(drawn, wanted, { width, height }) {
-  const stretch = wanted.scale / drawn.scale;
-  if (stretch === 1 || stretch > MOST_STRETCH) return false;
-  const x = wanted.x - (drawn.x + MARGIN) * stretch;
-  const y = wanted.y - (drawn.y + MARGIN) * stretch;
-  const own = ownSize({ width, height });
-  return x <= 0 && y <= 0 && x + own.width * stretch >= width && y + own.height * stretch >= height;
+/** Does something as soon as the frame that is being drawn is on its way to the screen. @type {(task: () => void) => void} */
+function afterFrame(task) {
+  const { port1, port2 } = new MessageChannel();
+  port1.onmessage = () => {
+    port1.close();
+    task();
+  };
+  port2.postMessage(null);
 }
 
 /** Overlapping rectangles as one. @type {(rects: Bounds[]) => Bounds[]} */

@@ -5,11 +5,13 @@
  * @module
  */
 
+import { joined } from "../geometry/bounds.js";
 import { reachOf } from "../geometry/shapes.js";
 import { CachedPicture } from "./cached_picture.js";
 import { Loupe } from "./loupe.js";
 import { Overlay } from "./overlay.js";
-import { nearTo, paint } from "./paint.js";
+import { Movement } from "./movement.js";
+import { crowdOf, nearTo, paint } from "./paint.js";
 import { PaintOrders } from "./paint_orders.js";
 import { photoFilter } from "./photo_filter.js";
 
@@ -22,6 +24,9 @@ import { photoFilter } from "./photo_filter.js";
 const TIMINGS_KEPT = 4096;
 /** From so many shapes on, a new picture is sooner there than so many repairs. */
 const MANY = 60;
+
+/** How far from the caps anything of them may be drawn: lines, words. */
+const BEYOND_PX = 64;
 
 export class Frame {
   /** @type {Timing[]} */
@@ -38,6 +43,7 @@ export class Frame {
   #sketches;
   #photos;
   #filter = "";
+  #movement = new Movement(() => this.ask());
   #loupe;
   /** Where the pointer is, CSS pixels of the host; null where it is elsewhere. @type {import("../protocol.js").Point | null} */
   #pointer = null;
@@ -81,15 +87,13 @@ export class Frame {
     return new CachedPicture(host, {
       paint: (context, view, region) => this.#paintCaps(context, view, region),
       order: (extent) => {
-        const { lifted } = this.#state;
-        const { visible } = layers;
-        const { colouring } = look.now;
         return orders.order(extent, {
           shapes: items.all,
-          visible,
+          visible: layers.visible,
           selected: selection.uids,
-          lifted,
-          colouring,
+          lifted: this.#state.lifted,
+          colouring: look.now.colouring,
+          crowd: this.#crowdAt(extent.view),
         });
       },
       ready,
@@ -100,9 +104,21 @@ export class Frame {
   #paintCaps = (context, view, region) => {
     const { lifted, items, layers, look, selection } = this.#state;
     const shapes = items.near(nearTo(region, view)).filter(({ uid }) => !lifted.has(uid));
-    const { colouring } = look.now;
-    paint(context, view, region, { shapes, visible: layers.visible, selected: selection.uids, colouring });
+    paint(context, view, region, {
+      shapes,
+      visible: layers.visible,
+      selected: selection.uids,
+      colouring: look.now.colouring,
+      crowd: this.#crowdAt(view),
+    });
   };
+
+  /** @type {(view: import("../geometry/view.js").View) => number} */
+  #crowdAt({ scale }) {
+    const { image, items, layers, viewport } = this.#state;
+    const count = items.all.filter((shape) => layers.show(shape)).length;
+    return crowdOf(count, image ?? viewport.size, viewport.size, scale);
+  }
 
   /** An event came that changes what is seen; the timing of the next frame is counted from it. @type {(event: number, kind: string) => void} */
   causedBy(event, kind) {
@@ -173,18 +189,21 @@ export class Frame {
   #draw() {
     this.#asked = false;
     const started = performance.now();
-    const { viewport, layers } = this.#state;
+    const { viewport, layers, items } = this.#state;
     const { view, size } = viewport;
     if (size.width < 1 || size.height < 1) return;
     const ratio = window.devicePixelRatio;
+    const photo = photoBounds(this.#state.image);
     this.#photo.visible = layers.visible.photo;
     this.#caps.visible = !layers.allHidden;
-    this.#photo.show(view, size, ratio);
-    const complete = this.#caps.show(view, size, ratio);
-    this.#overlay.draw(this.#state, ratio, this.#sketches());
+    const movement = this.#movement.follow(view);
+    const photoShown = this.#photo.show({ view, size, ratio, content: photo, beyond: 0 }, movement);
+    const content = joined(photo, items.bounds ?? photo);
+    const capsShown = this.#caps.show({ view, size, ratio, content, beyond: BEYOND_PX }, movement);
+    this.#overlay.draw(this.#state, ratio, this.#sketches(), movement);
     this.#drawLoupe();
     this.#note(started);
-    if (complete) for (const then of this.#whenComplete.splice(0)) then();
+    if (photoShown && capsShown) for (const then of this.#whenComplete.splice(0)) then();
   }
 
   /** @type {(started: number) => void} */
@@ -200,4 +219,9 @@ export class Frame {
     this.timings.push(timing);
     if (this.timings.length > TIMINGS_KEPT) this.timings.splice(0, TIMINGS_KEPT / 4);
   }
+}
+
+/** @type {(image: import("../protocol.js").Image | null) => import("../geometry/bounds.js").Bounds} */
+function photoBounds(image) {
+  return { x0: 0, y0: 0, x1: image?.width ?? 1, y1: image?.height ?? 1 };
 }

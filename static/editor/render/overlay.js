@@ -44,11 +44,12 @@ export class Overlay {
    * @param {EditorState} state
    * @param {number} ratio
    * @param {Sketch[]} sketches  of the tool in hand, of a conflict
+   * @param {{still: boolean}} movement  of the photo: while it moves, nothing under the pointer is marked
    */
-  draw(state, ratio, sketches) {
+  draw(state, ratio, sketches, { still }) {
     const { view, size } = state.viewport;
     const hidden = state.layers.allHidden;
-    const shapes = hidden ? [] : hoveredAndLifted(state);
+    const shapes = hidden ? [] : hoveredAndLifted(state, still);
     this.#caps.draw(onScreen(view, reachOfAll(shapes, state)), size, ratio, (context) => {
       drawShapes(context, shapes, state);
       return true;
@@ -67,10 +68,10 @@ function reachOfAll(shapes, { explanation, layers }) {
   return joinedAll(explained ? [...all, explained] : all);
 }
 
-/** @type {(state: EditorState) => Shape[]} */
-function hoveredAndLifted(state) {
+/** @type {(state: EditorState, still: boolean) => Shape[]} */
+function hoveredAndLifted(state, still) {
   const uids = state.lifted;
-  if (state.selection.hovered) uids.add(state.selection.hovered);
+  if (still && state.selection.hovered) uids.add(state.selection.hovered);
   return [...uids].flatMap((uid) => state.shape(uid) ?? []);
 }
 

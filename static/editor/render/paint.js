@@ -15,6 +15,7 @@ import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCent
 
 /** @typedef {import("../geometry/bounds.js").Bounds} Bounds */
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
+/** @typedef {import("../geometry/view.js").Size} Size */
 /** @typedef {import("../geometry/view.js").View} View */
 /** @typedef {import("./paths.js").Context} Context */
 /** @typedef {Record<string, boolean>} Visible */
@@ -23,7 +24,7 @@ import { strokeCased, strokeShaded, traceCross, traceRing, traceWhole, writeCent
 const SMALL_PX = 7;
 /** Between these sizes on screen, pixels, what is drawn beside the outline of a cap comes into sight. */
 const FADES = { whole: [26, 52], centre: [18, 36], label: [24, 40] };
-/** From this many caps on screen, everything of it comes into sight later. */
+/** From this crowd on, everything of it comes into sight later. */
 const CROWD = 120;
 const LATER = 1.4;
 /** An uncertainty is drawn as twice its standard deviation, where that can be seen. */
@@ -35,7 +36,7 @@ const AROUND_PX = 24;
 const FAINT = 0.35;
 /** Lines of open caps then, CSS pixels. */
 const OPEN_WIDTH = 2.5;
-/** From this many shapes on, lines are a device pixel wide: five times quicker to draw in software. */
+/** From this crowd on, lines are a device pixel wide: five times quicker to draw in software. */
 const MANY = 400;
 
 /**
@@ -44,7 +45,20 @@ const MANY = 400;
  * @property {Visible} visible  which layers
  * @property {ReadonlySet<string>} selected
  * @property {import("./colouring.js").Colouring} [colouring]
+ * @property {number} crowd  how many caps a window holds at this zoom, wherever it lies
  */
+
+/**
+ * How many of `count` caps a window holds, if they are spread over the whole photo. What is painted in part,
+ * or while the photo is moved, is so painted alike.
+ *
+ * @type {(count: number, photo: Size, window: Size, scale: number) => number}
+ */
+export function crowdOf(count, photo, window, scale) {
+  const across = Math.min(1, window.width / (photo.width * scale));
+  const down = Math.min(1, window.height / (photo.height * scale));
+  return count * across * down;
+}
 
 /**
  * Paints the part of the picture inside `region` (image pixels).
@@ -54,13 +68,12 @@ const MANY = 400;
  * @param {Bounds} region
  * @param {Picture} picture
  */
-export function paint(context, view, region, { shapes, visible, selected, colouring = "none" }) {
+export function paint(context, view, region, { shapes, visible, selected, colouring = "none", crowd }) {
   context.lineJoin = "round";
   context.lineCap = "round";
   const groups = groupsOf(shapes, view, region, selected, visible);
-  const count = [...groups.values()].reduce((sum, group) => sum + group.length, 0);
-  const fine = count >= MANY;
-  const later = count >= CROWD ? LATER : 1;
+  const fine = crowd >= MANY;
+  const later = crowd >= CROWD ? LATER : 1;
   for (const [style, group] of groups)
     paintGroup(context, view, group, { style, visible, fine, later, colouring });
 }

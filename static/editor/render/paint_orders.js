@@ -7,7 +7,7 @@
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./paint.js").Picture} Picture */
 /** @typedef {import("./paint_worker.js").Order} Order */
-/** @typedef {import("./cached_picture.js").Extent} Extent */
+/** @typedef {import("./extents.js").Extent} Extent */
 
 export class PaintOrders {
   #worker = new Worker(new URL("./paint_worker.js", import.meta.url), { type: "module" });
@@ -29,7 +29,7 @@ export class PaintOrders {
    * @param {Picture & {lifted: Set<string>}} picture  with every shape, lifted ones too
    * @returns {Promise<ImageBitmap>}
    */
-  order(extent, { shapes, visible, selected, lifted, colouring = "none" }) {
+  order(extent, { shapes, visible, selected, lifted, colouring = "none", crowd }) {
     const id = this.#next++;
     const fresh = shapes.filter((shape) => this.#sent.get(shape.uid) !== shape);
     const now = new Map(shapes.map((shape) => [shape.uid, shape]));
@@ -43,6 +43,7 @@ export class PaintOrders {
       gone,
       visible,
       colouring,
+      crowd,
       lifted: [...lifted],
       selected: [...selected],
     };

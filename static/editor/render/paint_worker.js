@@ -21,6 +21,7 @@ import { paint } from "./paint.js";
  * @property {string[]} selected
  * @property {Visible} visible
  * @property {import("./colouring.js").Colouring} colouring
+ * @property {number} crowd
  * @property {View} view
  * @property {number} width  CSS pixels
  * @property {number} height
@@ -31,7 +32,7 @@ import { paint } from "./paint.js";
 const shapes = new Map();
 
 /** @type {(order: Order) => ImageBitmap} */
-function carryOut({ fresh, gone, lifted, selected, visible, colouring, view, width, height, ratio }) {
+function carryOut({ fresh, gone, lifted, selected, visible, colouring, crowd, view, width, height, ratio }) {
   for (const uid of gone) shapes.delete(uid);
   for (const shape of fresh) shapes.set(shape.uid, shape);
   const canvas = new OffscreenCanvas(Math.round(width * ratio), Math.round(height * ratio));
@@ -43,6 +44,7 @@ function carryOut({ fresh, gone, lifted, selected, visible, colouring, view, wid
     shapes: [...shapes.values()].filter(({ uid }) => !away.has(uid)),
     visible,
     colouring,
+    crowd,
     selected: new Set(selected),
   };
   paint(context, view, visibleBounds(view, { width, height }), picture);

@@ -7,7 +7,6 @@
 
 import { joinedAll } from "../geometry/bounds.js";
 import { placedWhole } from "../geometry/caps.js";
-import { allAround, pick, withRimNear } from "../geometry/hit.js";
 import { boundsOf, shapeOfPrediction, uidOfPrediction } from "../geometry/shapes.js";
 import { changed, madeApart } from "./changes.js";
 import { Clipboard } from "./clipboard.js";
@@ -18,6 +17,7 @@ import { Items } from "./items.js";
 import { Layers } from "./layers.js";
 import { PhotoLook } from "./photo_look.js";
 import { Selection } from "./selection.js";
+import { Sight } from "./sight.js";
 import { signal } from "./signal.js";
 import { Store } from "./store.js";
 import { Viewport } from "./viewport.js";
@@ -65,6 +65,7 @@ export class EditorState {
     nudge: signal(),
   };
 
+  #sight = new Sight(this.items, this.layers);
   #gesture = new Gesture();
   #commit;
 
@@ -93,14 +94,8 @@ export class EditorState {
   #layersChanged() {
     this.commitDrafts();
     this.selection.hover(null);
-    this.selection.keep((uid) => this.#isShown(uid));
+    this.selection.keep((uid) => this.#sight.shows(uid));
     this.signals.picture.emit();
-  }
-
-  /** @type {(uid: string) => boolean} */
-  #isShown(uid) {
-    const shape = this.items.get(uid);
-    return shape !== null && this.layers.show(shape);
   }
 
   /** The selected shapes, as they look while being changed; none while all are hidden. */
@@ -138,49 +133,27 @@ export class EditorState {
 
   /** The items that the layers let one see. */
   get visible() {
-    return this.#visibleOf(this.items.all);
+    return this.#sight.all;
   }
 
-  /** @type {(shapes: Shape[]) => Shape[]} */
-  #visibleOf(shapes) {
-    return this.layers.allHidden ? [] : shapes.filter((shape) => this.layers.show(shape));
+  /** The visible item at a point of the image, else the one whose outline is nearest within `reach` pixels. @type {(point: Point, reach: number) => Shape | null} */
+  at(point, reach) {
+    return this.#sight.at(point, reach);
   }
 
-  /**
-   * The visible item at a point of the image, else the one whose outline is nearest within `reach` pixels.
-   *
-   * @param {Point} point
-   * @param {number} reach
-   * @returns {Shape | null}
-   */
-  at([x, y], reach) {
-    const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
-    return pick([...this.near(around), ...this.#besides], [x, y], reach);
-  }
-
-  /** What a reviewer can pick although it is not drawn with the caps. */
-  get #besides() {
-    return this.layers.allHidden ? [] : this.items.besides;
-  }
-
-  /**
-   * The visible items whose outline passes within `reach` of a point, the nearest first.
-   *
-   * @type {(point: Point, reach: number) => Shape[]}
-   */
-  rimsNear([x, y], reach) {
-    const around = { x0: x - reach, y0: y - reach, x1: x + reach, y1: y + reach };
-    return withRimNear(this.near(around), [x, y], reach);
+  /** The visible items whose outline passes within `reach` of a point, the nearest first. @type {(point: Point, reach: number) => Shape[]} */
+  rimsNear(point, reach) {
+    return this.#sight.rimsNear(point, reach);
   }
 
   /** The visible items that a point lies in, the one that is meant first. @type {(point: Point) => Shape[]} */
-  allAt([x, y]) {
-    return allAround([...this.near({ x0: x, y0: y, x1: x, y1: y }), ...this.#besides], [x, y]);
+  allAt(point) {
+    return this.#sight.allAt(point);
   }
 
   /** The visible items of which anything may be drawn in the rectangle. @type {(bounds: Bounds) => Shape[]} */
   near(bounds) {
-    return this.#visibleOf(this.items.near(bounds));
+    return this.#sight.near(bounds);
   }
 
   /**
@@ -236,7 +209,7 @@ export class EditorState {
    */
   select(uids, { reveal = false } = {}) {
     this.commitDrafts();
-    this.selection.set(uids.filter((uid) => this.#isShown(uid)));
+    this.selection.set(uids.filter((uid) => this.#sight.shows(uid)));
     if (reveal) this.reveal();
   }
 

@@ -6,6 +6,7 @@
  * @module
  */
 
+import { joinedAll } from "../geometry/bounds.js";
 import { Grid } from "../geometry/grid.js";
 import { reachOf } from "../geometry/shapes.js";
 
@@ -21,6 +22,8 @@ export class Items {
   /** @type {Map<string, {shape: Shape, order: number}>} */
   #byUid = new Map();
   #grid = new Grid();
+  /** @type {Bounds | null} */
+  #bounds = null;
   /** @type {Map<string, Shape>} */
   #besides = new Map();
   /** The version of the store that all this was made of. */
@@ -58,6 +61,12 @@ export class Items {
     return this.#all;
   }
 
+  /** Around everything of them that may be drawn; null where there are none. */
+  get bounds() {
+    this.#update();
+    return this.#bounds;
+  }
+
   /** @type {(uid: string) => Shape | null} */
   get(uid) {
     this.#update();
@@ -82,6 +91,7 @@ export class Items {
     this.#byUid = new Map(this.#all.map((shape, order) => [shape.uid, { shape, order }]));
     for (const uid of before.keys()) if (!this.#byUid.has(uid)) this.#grid.remove(uid);
     for (const shape of this.#all) if (before.get(shape.uid)?.shape !== shape) this.#locate(shape);
+    this.#bounds = joinedAll(this.#all.flatMap((shape) => reachOf(shape) ?? []));
   }
 
   #openPredictions() {

@@ -38,12 +38,26 @@ export function keepMounted(host, onToken) {
     if (found && found !== token) onToken((token = found));
   };
   look();
+  freePanel(host);
   new MutationObserver(look).observe(document.body, {
     childList: true,
     subtree: true,
     attributes: true,
     attributeFilter: ["data-token"],
   });
+}
+
+/** The panel has the width that the style sheet keeps for it until somebody takes hold of it. @type {(host: HTMLElement) => void} */
+function freePanel(host) {
+  /** @type {(event: Event) => void} */
+  const held = ({ target }) => {
+    const within = target instanceof Element && target.closest("[data-dock-root]") && !host.contains(target);
+    // Before the panel has its own width, nobody has had anything to take hold of.
+    if (!within || !document.querySelector("[data-dock-region] [role=tab]")) return;
+    document.documentElement.dataset.fairyringPanel = "free";
+    for (const kind of ["pointerdown", "keydown"]) document.removeEventListener(kind, held, true);
+  };
+  for (const kind of ["pointerdown", "keydown"]) document.addEventListener(kind, held, true);
 }
 
 /** @type {(host: HTMLElement) => void} */

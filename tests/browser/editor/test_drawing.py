@@ -14,7 +14,7 @@ BITMAP = """
     drawing.context.fillStyle = '#f00';
     drawing.context.fillRect(x, 0, 3, 5);
   };
-  drawing.clear({width: 10, height: 5}, 2);
+  drawing.clear({width: 10, height: 5, ratio: 2});
 """
 
 
@@ -35,7 +35,7 @@ def test_the_screen_keeps_the_old_drawing_until_the_new_one_is_shown(call) -> No
     body = """
       draw(0);
       drawing.show();
-      drawing.clear({width: 10, height: 5}, 2);
+      drawing.clear({width: 10, height: 5, ratio: 2});
       const before = seen(5);
       drawing.show();
       return [before, seen(5)];
@@ -47,9 +47,8 @@ def test_a_picture_drawn_elsewhere_is_shown_and_can_be_drawn_on(call) -> None:
     body = """
       const made = new OffscreenCanvas(20, 10);
       const put = () => {
-        drawing.clear({width: 10, height: 5}, 2);
         Object.assign(made.getContext('2d'), {fillStyle: '#f00'}).fillRect(0, 0, 6, 10);
-        drawing.put(made.transferToImageBitmap());
+        drawing.put(made.transferToImageBitmap(), {width: 10, height: 5, ratio: 2});
       };
       put();
       drawing.show();
@@ -156,7 +155,7 @@ def test_checked_caps_are_faint_outlines_where_only_open_ones_are_to_stand_out(c
         const context = new OffscreenCanvas(60, 60).getContext('2d');
         const shapes = [{uid: 'u', cap, checked, score: null, whole: null, centre: null}];
         m.paint(context, {scale: 1, x: 0, y: 0}, {x0: 0, y0: 0, x1: 60, y1: 60}, {
-          shapes, visible, selected: new Set(),
+          shapes, visible, selected: new Set(), crowd: 1,
         });
         return [[30, 30], [30, 10]].map(([x, y]) => context.getImageData(x, y, 1, 1).data[3]);
       };

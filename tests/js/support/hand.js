@@ -19,7 +19,7 @@ export function handOf(state, tool) {
     /** @type {Point} */ image,
     /** @type {Held} */ { alt = false, shift = false, ctrl = false } = {},
   ) => {
-    return { screen: toScreen(state.viewport.view, ...image), image, alt, shift, ctrl };
+    return { screen: toScreen(state.viewport.view, ...image), image, alt, shift, ctrl, time: performance.now() };
   };
   const hand = {
     hover: (/** @type {Point} */ at, /** @type {Held} */ held = {}) => tool.hover(press(at, held)),

@@ -219,6 +219,8 @@ def test_where_most_is_to_gain_comes_first_every_light_and_form_in_turn_and_what
         "f": ("side", "new", []),
     }
 
+    numbers = {}
+
     def fill(connection):
         run = add_run(connection, name="r", kind="network").id
         category = connection.execute(insert(schema.category).values(name="mushroom", extra={}))
@@ -233,6 +235,7 @@ def test_where_most_is_to_gain_comes_first_every_light_and_form_in_turn_and_what
             }
             values |= {"light": light, "status": status, "extra": {}, "added_at": "2026", "run": run}
             [number] = connection.execute(insert(schema.image).values(values)).inserted_primary_key
+            numbers[name] = number
             for k, score in enumerate(scores):
                 one = {"run": run, "image": number, "uid": f"{name}{k}", "visible": [], "score": score}
                 [kind] = category.inserted_primary_key
@@ -244,3 +247,13 @@ def test_where_most_is_to_gain_comes_first_every_light_and_form_in_turn_and_what
     assert [
         name for k in range(3) for name in names(project, ImageFilter(sort="gain"), offset=2 * k, limit=2)
     ] == order
+
+    def around(name):
+        with project.read() as connection:
+            place = position_in_list(connection, ImageFilter(sort="gain"), numbers[name])
+        called = {number: name for name, number in numbers.items()} | {None: None}
+        return called[place.previous], place.position, called[place.next]
+
+    assert around("c") == ("b", 1, "e")
+    # Had d not been done, 9 x .7 caps would be wrong, the most of all: it leads on from where it was.
+    assert around("d") == (None, 5, "b")

@@ -13,6 +13,7 @@
  * @property {boolean} shift
  * @property {boolean} alt
  * @property {boolean} ctrl  Ctrl, or the Command key
+ * @property {number} time  when the pointer was there, by the page's clock: the browser may tell a frame later
  */
 
 /**
