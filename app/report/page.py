@@ -132,7 +132,6 @@ def _tables_to_download(figures: dict[str, Any], review: Review) -> Markup:
     measured = ("prediction", "dx", "dy", "px", "cdr", "relative", "diameter", "size")
     of_mark = ("floor", "annotator", "shape", "is_doubtful", "is_unsure")
     names = ("image", "cap", *measured, *(name.removeprefix("is_") for name in of_mark))
-    # Caps are numbered from 1 on, as on the pictures and among what was said.
     caps = [
         [
             each.measured.row.image,
