@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from fairyring.storage.project import Project
 
 
+UNTOUCHED = "{} images that nobody has worked on are"
+
+
 def review(
     folder: ProjectFolder,
     *,
@@ -82,7 +85,13 @@ def review(
     if agreement is not None:
         print_rows(f"annotations and {agreement[0]}", agreement_lines(agreement[1]), as_json=False)
     if found.untouched:
-        typer.echo(f"{len(found.untouched)} images that nobody has worked on are not counted.", err=True)
+        count = len(found.untouched)
+        told = (
+            "1 image that nobody has worked on is"
+            if count == 1
+            else f"{count} images that nobody has worked on are"
+        )
+        typer.echo(f"{told} not counted.", err=True)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -79,6 +79,8 @@ def _untouched(found: tuple[int, list[str]]) -> Markup | None:
         return None
     more = f" and {count - len(names)} more" if count > len(names) else ""
     told = f"{count} images that nobody has worked on count nowhere here"
+    if count == 1:
+        told = "1 image that nobody has worked on counts nowhere here"
     return element(
         "details", element("summary", told), element("p", ", ".join(names) + more), class_="fr-quiet"
     )

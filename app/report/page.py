@@ -129,9 +129,19 @@ def _tables_to_download(figures: dict[str, Any], review: Review) -> Markup:
     images = [
         (r["file_name"], r["cdr"]["mean"], r["floor"]["cdr_mean"], r["px"]["mean"]) for r in figures["images"]
     ]
-    rows = [cap.measured.row for cap in review.caps if cap.measured.error]
-    names = ("image", "cap", "prediction", "dx", "dy", "px", "cdr", "relative", "diameter")
-    caps = [(r.image, r.truth, r.prediction, r.dx, r.dy, r.px, r.cdr, r.relative, r.diameter) for r in rows]
+    measured = ("prediction", "dx", "dy", "px", "cdr", "relative", "diameter", "size")
+    of_mark = ("floor", "annotator", "shape", "is_doubtful", "is_unsure")
+    names = ("image", "cap", *measured, *(name.removeprefix("is_") for name in of_mark))
+    caps = [
+        [
+            each.measured.row.image,
+            each.measured.row.truth,
+            *(getattr(each.measured.row, name) for name in measured),
+            *(getattr(each, name) for name in of_mark),
+        ]
+        for each in review.caps
+        if each.measured.truth is not None and each.measured.error
+    ]
     said = [entry_of(each) for each in review.said]
     told = ("image", "annotation", "revision", "says", "words", "by", "at")
     return element(

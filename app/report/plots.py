@@ -71,8 +71,10 @@ def shifts(found: Sequence[tuple[float, float]]) -> Markup:
     cross = element("circle", cx=_at(mean[0], scale), cy=_at(mean[1], scale), r=4, class_="mean")
     caption = (
         f"Predicted minus marked centre, pixels, edges at ±{reach:.1f}; on the whole "
-        f"Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}. {len(moves) - len(inside)} lie further out."
+        f"Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}."
     )
+    if further := len(moves) - len(inside):
+        caption += " 1 lies further out." if further == 1 else f" {further} lie further out."
     return _figure(caption, SIDE, SIDE, *axes, *dots, _ellipse(moves, scale), cross)
 
 

@@ -77,6 +77,8 @@ def test_the_tables_to_download_hold_every_measured_cap(project: Project) -> Non
     images, caps, _ = (rows_of(address) for address in files)
     assert [row["image"] for row in images] == ["bed_1.jpg"]
     assert {row["cap"]: round(float(row["dx"]), 3) for row in caps} == {"left": 1.6, "right": 0.0}
+    assert {row["shape"] for row in caps} <= {"regular", "irregular"}
+    assert all(float(row["floor"]) > 0 for row in caps)
 
 
 def test_a_close_up_shows_the_marked_and_the_predicted_outline(project: Project) -> None:
