@@ -9,6 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from playwright.sync_api import FloatRect
 
 from fairyring.app.bench.browser import stopwatch
 from fairyring.app.bench.browser.tab import Tab
@@ -113,10 +114,11 @@ def test_zooming_out_leaves_nothing_of_the_window_bare(tab: Tab) -> None:
     turn_wheel(tab, 24)
     ground = tab.page.locator("#fairyring-editor").bounding_box()
     assert ground is not None
-    corner = {"x": ground["x"] + 2, "y": ground["y"] + ground["height"] / 2, "width": 40, "height": 40}
+    middle = ground["y"] + ground["height"] / 2
+    corner: FloatRect = {"x": ground["x"] + 2, "y": middle, "width": 40, "height": 40}
     for _ in range(10):
         turn_wheel(tab, -1)
-        shot = np.frombuffer(tab.page.screenshot(clip=corner), np.uint8)  # type: ignore[arg-type]
+        shot = np.frombuffer(tab.page.screenshot(clip=corner), np.uint8)
         seen = cv2.imdecode(shot, cv2.IMREAD_COLOR)
         assert seen is not None
         assert seen.mean() == pytest.approx(NOISE.mean(), abs=30)
