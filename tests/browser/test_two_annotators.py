@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import Locator, expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -40,15 +40,20 @@ def project(tmp_path: Path) -> Path:
     return path
 
 
-def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
-    server: Server, open_tab: Callable[..., Tab]
-) -> None:
-    tab = open_tab(server, name="Rev")
+def compare_all_with_ben(tab: Tab) -> Locator:
+    """Takes his version beside the annotations; the table of both."""
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("Two annotators", exact=True).click()
     choose(tab, "Second annotator", "ben.json")
     tab.page.get_by_role("button", name="Compare all images with this version").click()
-    table = tab.page.get_by_role("table", name="Two annotators", exact=True)
+    return tab.page.get_by_role("table", name="Two annotators", exact=True)
+
+
+def test_two_annotators_of_a_photo_are_compared_and_the_second_version_is_drawn(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    tab = open_tab(server, name="Rev")
+    table = compare_all_with_ben(tab)
     for row in (
         "matched 4 4",
         "missed by the second 1 1",
@@ -83,11 +88,7 @@ def test_every_number_of_two_annotators_leads_to_the_caps_that_it_counts(
     server: Server, open_tab: Callable[..., Tab]
 ) -> None:
     tab = open_tab(server, name="Rev")
-    tab.page.get_by_role("tab", name="Review").click()
-    tab.page.get_by_text("Two annotators", exact=True).click()
-    choose(tab, "Second annotator", "ben.json")
-    tab.page.get_by_role("button", name="Compare all images with this version").click()
-    table = tab.page.get_by_role("table", name="Two annotators", exact=True)
+    table = compare_all_with_ben(tab)
     caps = tab.page.get_by_role("group", name="Caps of all images")
     shown = caps.locator(".fr-gallery button")
     for row, number, count in (
