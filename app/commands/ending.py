@@ -17,7 +17,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from fairyring.app.commands.stopping import INTERRUPTED
+from fairyring.app.commands.stopping import INTERRUPTED, swallowed_interrupts_again
 from fairyring.app.commands.version import version
 from fairyring.model.errors import FairyringError
 
@@ -55,7 +55,7 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         """Runs the command that was asked for."""
         try:
-            with _sigterm_as_interrupt():
+            with _sigterm_as_interrupt(), swallowed_interrupts_again():
                 return super().invoke(ctx)
         except KeyboardInterrupt as stop:
             said = str(stop) if isinstance(stop, Stopped) else AFTER.get(ctx.invoked_subcommand, BEGIN_ANEW)

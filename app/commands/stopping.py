@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import _thread
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,6 +13,30 @@ from fairyring.model.progress import Progress
 
 INTERRUPTED = 130
 """Exit code after Ctrl+C or SIGTERM; shells report the same after Ctrl+C."""
+
+
+AGAIN_AFTER_S = 0.05
+"""Long enough for Python to be out of what swallowed an interrupt."""
+
+
+@contextmanager
+def swallowed_interrupts_again() -> Iterator[None]:
+    """Interrupts anew where Python dropped a KeyboardInterrupt: in a finalizer, in a callback of an import."""
+    before = sys.unraisablehook
+
+    def hook(unraisable: sys.UnraisableHookArgs) -> None:
+        if not issubclass(unraisable.exc_type, KeyboardInterrupt):
+            before(unraisable)
+            return
+        again = threading.Timer(AGAIN_AFTER_S, _thread.interrupt_main)
+        again.daemon = True
+        again.start()
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 @contextmanager

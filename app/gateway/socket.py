@@ -148,6 +148,9 @@ async def _encode(message: FromServer) -> str:
 
 
 async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket, hello: Hello) -> None:
+    # Before anything is said: an answer to the first word may be large.
+    limit = workspace.settings.message_limit_mb * A_MEGABYTE
+    trust(socket.scope, most=limit + FRAME_MARGIN)
     session.send(Welcome(user=session.user, project=workspace.project.id))
     if workspace.project.read_only:
         session.notify("This project is read-only; changes to it are refused.", "warning")
@@ -155,8 +158,6 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
     build_panel(workspace, session)
     await reopen(workspace, session, hello.image)
     refits, finding = Refits(workspace, session), Finding(workspace, session)
-    limit = workspace.settings.message_limit_mb * A_MEGABYTE
-    trust(socket.scope, most=limit + FRAME_MARGIN)
     try:
         while True:
             text = await socket.receive_text()

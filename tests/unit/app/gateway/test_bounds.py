@@ -12,7 +12,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from fairyring.app.gateway import bounded_sockets, timely_requests
-from fairyring.app.protocol import Fitted, Notice, Refit, Show
+from fairyring.app.protocol import Fitted, Notice, Refit, Show, Welcome
 from fairyring.storage.records import Cap
 from tests.support.tab import SUBPROTOCOL, Tab, open_socket
 from tests.unit.app.conftest import circle
@@ -43,7 +43,7 @@ def test_before_it_said_hello_a_socket_may_send_little(shared_port: int, path: s
 
 def test_the_editor_may_send_much_once_it_has_said_hello(port: int) -> None:
     with Tab(port, image=1) as tab:
-        tab.expect(Show)
+        tab.expect(Welcome)
         tab.send(Refit(seq=1, image=1, annotation="x" * 2 * A_MEGABYTE, cap=Cap(visible=circle(40, 40, 20))))
         assert len(tab.expect(Fitted).annotation) == 2 * A_MEGABYTE
 

@@ -1,0 +1,47 @@
+"""How a command hears that it is to stop."""
+
+from __future__ import annotations
+
+import signal
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from fairyring.app.commands.stopping import swallowed_interrupts_again
+
+
+@pytest.fixture
+def _as_in_a_shell() -> Iterator[None]:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+class Finalized:
+    """Of what its finalizer raises, Python says that it was ignored."""
+
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.usefixtures("_as_in_a_shell")
+def test_ctrl_c_in_a_finalizer_stops_what_follows() -> None:
+    went_on = False
+    with pytest.raises(KeyboardInterrupt), swallowed_interrupts_again():  # noqa: PT012
+        Finalized()
+        went_on = True
+        time.sleep(20)
+    assert went_on
+
+
+def test_other_errors_in_finalizers_are_told_as_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Broken:
+        def __del__(self) -> None:
+            raise ValueError("of a finalizer")
+
+    told: list[BaseException | None] = []
+    monkeypatch.setattr("sys.unraisablehook", lambda unraisable: told.append(unraisable.exc_value))
+    with swallowed_interrupts_again():
+        Broken()
+    assert [str(error) for error in told] == ["of a finalizer"]
