@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import _thread
 import signal
 import sys
 import threading
@@ -21,14 +20,16 @@ AGAIN_AFTER_S = 0.05
 
 @contextmanager
 def swallowed_interrupts_again() -> Iterator[None]:
-    """Interrupts anew where Python dropped a KeyboardInterrupt: in a finalizer, in a callback of an import."""
+    """Sends SIGTERM where Python dropped a KeyboardInterrupt: in a finalizer, in a callback of an import."""
     before = sys.unraisablehook
 
     def hook(unraisable: sys.UnraisableHookArgs) -> None:
         if not issubclass(unraisable.exc_type, KeyboardInterrupt):
             before(unraisable)
             return
-        again = threading.Timer(AGAIN_AFTER_S, _thread.interrupt_main)
+        # To the thread, so that it wakes; not SIGINT, which jobs in the background ignore.
+        main = threading.main_thread().ident
+        again = threading.Timer(AGAIN_AFTER_S, signal.pthread_kill, (main, signal.SIGTERM))
         again.daemon = True
         again.start()
 

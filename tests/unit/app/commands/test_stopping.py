@@ -12,10 +12,14 @@ from fairyring.app.commands.stopping import swallowed_interrupts_again
 
 
 @pytest.fixture
-def _as_in_a_shell() -> Iterator[None]:
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+def _interrupted_by_both() -> Iterator[None]:
+    before = {
+        number: signal.signal(number, signal.default_int_handler)
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
     yield
-    signal.signal(signal.SIGINT, before)
+    for number, handler in before.items():
+        signal.signal(number, handler)
 
 
 class Finalized:
@@ -25,7 +29,7 @@ class Finalized:
         signal.raise_signal(signal.SIGINT)
 
 
-@pytest.mark.usefixtures("_as_in_a_shell")
+@pytest.mark.usefixtures("_interrupted_by_both")
 def test_ctrl_c_in_a_finalizer_stops_what_follows() -> None:
     went_on = False
     with pytest.raises(KeyboardInterrupt), swallowed_interrupts_again():  # noqa: PT012
