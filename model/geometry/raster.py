@@ -42,6 +42,12 @@ def mask_of_outline(outline: Outline, *, height: int, width: int) -> Mask:
     return mask_of_rle(rle_of_outline(outline, height=height, width=width))
 
 
+def box_of_mask(mask: NDArray[np.bool_]) -> tuple[slice, slice]:
+    """Rows and columns of the smallest box that holds all of a mask (height, width); it must not be empty."""
+    columns, rows = np.flatnonzero(mask.any(0)), np.flatnonzero(mask.any(1))
+    return slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1)
+
+
 def rle_of_mask(mask: Mask) -> Rle:
     """Any array (height, width), non-zero where covered, as a compressed RLE."""
     return _as_text(coco.encode(np.asfortranarray(mask != 0, dtype=np.uint8)))

@@ -6,11 +6,12 @@ from itertools import pairwise
 
 import cv2
 import numpy as np
-from contourpy import FillType, contour_generator
+from contourpy import FillType, LineType, SerialContourGenerator, ZInterp
 from numpy.typing import NDArray
 
 from fairyring.model.geometry.bridges import join_holes
 from fairyring.model.geometry.polygon_fit import fit_polygon
+from fairyring.model.geometry.raster import box_of_mask
 from fairyring.model.geometry.shapes import Outline, Points, part_of_points, signed_area
 from fairyring.model.predict.overlaps import LEAST_PART
 
@@ -30,10 +31,16 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
     inside = logits > 0
     if not inside.any():
         return []
-    left, top, right, bottom = _box(inside)
-    padded = np.pad(logits, 1, constant_values=-MOST_LOGIT)[top : bottom + 2, left : right + 2]
-    padded = padded.clip(-MOST_LOGIT, MOST_LOGIT)
-    filled = contour_generator(z=padded, fill_type=FillType.OuterOffset).filled(0.0, np.inf)
+    rows, columns = box_of_mask(inside)
+    # One more pixel on every side, of which those beyond the photo are surely none of the cap.
+    top, left = rows.start - 1, columns.start - 1
+    padded = np.full((rows.stop + 1 - top, columns.stop + 1 - left), -MOST_LOGIT)
+    first_row, first = max(top, 0), max(left, 0)
+    shown = logits[first_row : rows.stop + 1, first : columns.stop + 1]
+    height, width = shown.shape
+    here = np.s_[first_row - top : first_row - top + height, first - left : first - left + width]
+    padded[here] = shown.clip(-MOST_LOGIT, MOST_LOGIT)
+    filled = _level_lines(padded).filled(0.0, np.inf)
     loops = [
         [points[first:last] for first, last in pairwise(ends)] for points, ends in zip(*filled, strict=True)
     ]
@@ -45,20 +52,28 @@ def outline_of_logits(logits: NDArray[np.float32], *, corner: tuple[int, int]) -
         holes = [ring for ring in rings[1:] if abs(signed_area(ring)) >= LEAST_HOLE * area]
         simple = [_simplified(ring) for ring in (rings[0], *holes)]
         if all(len(ring) >= 3 for ring in simple):
-            # The padding moved every index by 1, the middle of a pixel lies half a pixel in.
-            points = join_holes(simple[0], simple[1:]) - 0.5 + (left, top)
+            # The middle of a pixel lies half a pixel in.
+            points = join_holes(simple[0], simple[1:]) + 0.5 + (left, top)
             points = points.clip(0, logits.shape[::-1]) + corner
             outline.append(part_of_points(points.round(2)))
     return outline
 
 
-def _box(inside: NDArray[np.bool_]) -> tuple[int, int, int, int]:
-    """Box around what is True, as left, top, right, bottom: its columns are ``left : right``.
-
-    Of an array padded by 1, ``left : right + 2`` are those and one on either side.
-    """
-    columns, rows = np.flatnonzero(inside.any(0)), np.flatnonzero(inside.any(1))
-    return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
+def _level_lines(values: NDArray[np.float64]) -> SerialContourGenerator:
+    """As ``contour_generator`` makes it, which looks for masked and infinite values first, and for longer."""
+    height, width = values.shape
+    columns, rows = np.meshgrid(np.arange(width, dtype=np.float64), np.arange(height, dtype=np.float64))
+    return SerialContourGenerator(
+        columns,
+        rows,
+        values,
+        None,  # pyright: ignore[reportArgumentType]  # no mask, as contour_generator says it
+        corner_mask=True,
+        line_type=LineType.Separate,
+        fill_type=FillType.OuterOffset,
+        quad_as_tri=False,
+        z_interp=ZInterp.Linear,
+    )
 
 
 def _simplified(ring: Points) -> Points:
@@ -69,6 +84,7 @@ def _simplified(ring: Points) -> Points:
     points = ring[:-1]
     exact = points.astype(np.float32)
     kept = cv2.approxPolyDP(exact[:, None], TOLERANCE, closed=True).reshape(-1, 2)
-    places = {tuple(point): nth for nth, point in enumerate(exact.tolist())}
-    knots = np.unique([places[tuple(point)] for point in kept.tolist()])
+    # Each point occurs once and is kept as it is: its two numbers, taken as one, tell it.
+    places = {point: nth for nth, point in enumerate(exact.view(np.int64).ravel().tolist())}
+    knots = np.array(sorted(places[point] for point in kept.view(np.int64).ravel().tolist()), np.int64)
     return fit_polygon(points, knots) if len(knots) >= 3 else points[knots]

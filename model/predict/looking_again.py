@@ -13,6 +13,7 @@ import torch
 from numpy.typing import NDArray
 
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
+from fairyring.model.geometry.raster import box_of_mask
 from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.second_look import LAYERS, SIDE, Said, Windows
 from fairyring.model.photo import Pixels
@@ -105,11 +106,10 @@ def cut_out(photo: Pixels, windows: Sequence[Window]) -> Cut:
 
 def _place_of(window: Window) -> tuple[float, float, float]:
     """Middle and half width of the window that a cap is looked at in, such that it begins at a pixel."""
-    held = window.logits > 0
-    columns, rows = np.flatnonzero(held.any(0)), np.flatnonzero(held.any(1))
-    left, right, top, bottom = columns[0], columns[-1] + 1, rows[0], rows[-1] + 1
-    half = max(right - left, bottom - top)
-    return float(window.x + (left + right) // 2), float(window.y + (top + bottom) // 2), float(half)
+    rows, columns = box_of_mask(window.logits > 0)
+    half = max(columns.stop - columns.start, rows.stop - rows.start)
+    x, y = (columns.start + columns.stop) // 2, (rows.start + rows.stop) // 2
+    return float(window.x + x), float(window.y + y), float(half)
 
 
 def _square(canvas: NDArray[Kind], left: int, top: int, side: int) -> NDArray[Kind]:

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from fairyring.model.geometry.raster import box_of_mask
 from fairyring.model.predict.smoothing import without_horns
 
 CONFIDENT = 0.3
@@ -72,15 +73,17 @@ def resolve_overlaps(
 
 def without_specks(window: Window) -> Window:
     """The same with negated logits in parts that are too small beside the largest."""
-    held = (window.logits > 0).astype(np.uint8)
+    held = window.logits > 0
     if not held.any():
         return window
-    count, parts, figures, _ = cv2.connectedComponentsWithStats(held, connectivity=4)
+    here = box_of_mask(held)
+    count, parts, figures, _ = cv2.connectedComponentsWithStats(held[here].astype(np.uint8), connectivity=4)
     areas = figures[1:, cv2.CC_STAT_AREA]
     specks = np.flatnonzero(areas < LEAST_PART * areas.max()) + 1
     if count == 2 or not len(specks):
         return window
-    turned = np.where(np.isin(parts, specks), -window.logits, window.logits)
+    turned = window.logits.copy()
+    np.negative(turned[here], out=turned[here], where=np.isin(parts, specks))
     return replace(window, logits=turned)
 
 

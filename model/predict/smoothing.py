@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from fairyring.model.geometry.raster import box_of_mask
 
 CLOSED, OPENED = 0.2, 0.1
 """Radii of the discs that no notch, and no horn, is too narrow for, as shares of the cap's diameter."""
@@ -24,11 +28,11 @@ def smoothed(logits: NDArray[np.float32]) -> NDArray[np.float32]:
     area = int(np.count_nonzero(held))
     if area < FEWEST:
         return logits
-    by = CLOSED * _diameter(area)
-    reach = int(np.ceil(by)) + 1
-    closed = ~_grown(~_grown(np.pad(held, reach), by), by)
-    closed = closed[reach:-reach, reach:-reach]
-    filled = np.where(closed & ~held & (logits > OTHERS), np.float32(HARDLY), logits)
+    here, by = box_of_mask(held), CLOSED * _diameter(area)
+    there, reach = held[here], math.ceil(by) + 1
+    closed = ~_grown(~_grown(_padded(there, reach), by), by)[reach:-reach, reach:-reach]
+    filled = logits.copy()
+    filled[here][closed & ~there & (logits[here] > OTHERS)] = HARDLY
     return without_horns(filled, diameter=_diameter(area))
 
 
@@ -38,13 +42,22 @@ def without_horns(logits: NDArray[np.float32], *, diameter: float | None = None)
     area = int(np.count_nonzero(held))
     if area < FEWEST:
         return logits
-    by = OPENED * (diameter or _diameter(area))
-    reach = int(np.ceil(by)) + 1
-    opened = _grown(~_grown(~np.pad(held, reach), by), by)
-    opened = opened[reach:-reach, reach:-reach]
+    here, by = box_of_mask(held), OPENED * (diameter or _diameter(area))
+    there, reach = held[here], math.ceil(by) + 1
+    opened = _grown(~_grown(~_padded(there, reach), by), by)[reach:-reach, reach:-reach]
     if np.count_nonzero(opened) < (1 - MOST_LOST) * area:
         return logits
-    return np.where(held & ~opened, -logits, logits)
+    shorn = logits.copy()
+    np.negative(shorn[here], out=shorn[here], where=there & ~opened)
+    return shorn
+
+
+def _padded(mask: NDArray[np.bool_], by: int) -> NDArray[np.bool_]:
+    """With so many pixels of False on every side (``np.pad`` takes ten times as long)."""
+    height, width = mask.shape
+    padded = np.zeros((height + 2 * by, width + 2 * by), bool)
+    padded[by:-by, by:-by] = mask
+    return padded
 
 
 def _diameter(area: int) -> float:
@@ -53,5 +66,5 @@ def _diameter(area: int) -> float:
 
 def _grown(mask: NDArray[np.bool_], by: float) -> NDArray[np.bool_]:
     """A mask with all pixels that lie within so many of it."""
-    away = cv2.distanceTransform((~mask).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
+    away = cv2.distanceTransform((~mask).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5)
     return np.asarray(away) <= by

@@ -11,6 +11,7 @@ from pycocotools import mask as coco
 
 from fairyring.model.geometry.raster import (
     area_of_rle,
+    box_of_mask,
     check_rle,
     covered_matrix,
     iou_matrix,
@@ -122,3 +123,9 @@ def test_no_parts_cover_nothing_and_two_points_are_no_polygon() -> None:
     # pycocotools would take four numbers for a box.
     with pytest.raises(GeometryError, match="three points"):
         rle_of_outline([[0, 0, 3, 3]], height=4, width=4)
+
+
+def test_the_box_of_a_mask_holds_all_of_it_and_no_empty_row_or_column() -> None:
+    mask = np.zeros((7, 9), bool)
+    mask[2, 3] = mask[4, 8] = True
+    assert box_of_mask(mask) == (slice(2, 5), slice(3, 9))
