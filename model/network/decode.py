@@ -1,4 +1,4 @@
-"""Decodes the network's outputs for one input: points-NMS, masks, mask scores, matrix NMS."""
+"""Decodes the network's outputs for one input: points-NMS, masks, mask scores, doubles, matrix NMS."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from msgspec import Struct
 from torch import Tensor
 
 from fairyring.model.network.config import NetworkConfig
+from fairyring.model.network.doubles import parted
 from fairyring.model.network.dynamic_conv import mask_logits
 from fairyring.model.network.matrix_nms import matrix_nms, points_nms
 from fairyring.model.network.pr_solov2 import Outputs
@@ -72,10 +73,11 @@ def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: Decode
     inside = (logits.sigmoid() * masks).flatten(1).sum(1) / area.clamp(min=1)
     scores = torch.where(area > found.least, found.scores * inside, 0.0)
     order = scores.topk(min(settings.most_before_nms, int((scores > 0).sum()))).indices
-    scores = matrix_nms(masks[order], scores[order])
+    logits, owners = parted(logits[order])
+    order = order[owners]
+    scores = matrix_nms(logits > 0, scores[order])
     kept = scores.topk(min(settings.most, int((scores >= settings.least_score).sum()))).indices
-    order = order[kept]
-    return Instances(scores[kept], found.kernels[order], logits[order])
+    return Instances(scores[kept], found.kernels[order[kept]], logits[kept])
 
 
 def _candidates(outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig) -> _Candidates:
