@@ -18,6 +18,9 @@ from fairyring.model.network.reach import middles_of, reach_of, within_reach
 LEVEL_STRIDES = (8, 8, 16, 32, 32)
 """A mask of no more cells than this, at a mask stride of 4 photo pixels, is dropped."""
 
+LESS = 0.5
+"""What a cap counts for that a mask held among others, beside those that have a mask of their own."""
+
 
 class DecodeConfig(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How instances are chosen; the reference's figures, but for the number kept."""
@@ -75,9 +78,19 @@ def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: Decode
     order = scores.topk(min(settings.most_before_nms, int((scores > 0).sum()))).indices
     logits, owners = parted(logits[order])
     order = order[owners]
-    scores = matrix_nms(logits > 0, scores[order])
+    scores = _suppressed(
+        logits > 0, scores[order], weight=(owners.bincount()[owners] == 1) * (1 - LESS) + LESS
+    )
     kept = scores.topk(min(settings.most, int((scores >= settings.least_score).sum()))).indices
     return Instances(scores[kept], found.kernels[order[kept]], logits[kept])
+
+
+def _suppressed(masks: Tensor, scores: Tensor, *, weight: Tensor) -> Tensor:
+    """Scores (n,) after matrix NMS of masks (n, h, w), in which each counts as its score times its weight."""
+    weighted, order = (scores * weight).sort(descending=True, stable=True)
+    lowered = torch.empty_like(scores)
+    lowered[order] = matrix_nms(masks[order], weighted)
+    return lowered / weight
 
 
 def _candidates(outputs: Outputs, image: int, config: NetworkConfig, settings: DecodeConfig) -> _Candidates:
