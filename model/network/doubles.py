@@ -10,8 +10,8 @@ from torch import Tensor
 
 LEAST_PART = 0.35
 """A part of less than this share of the largest is no cap of its own."""
-LEAST_ROUND = 0.55
-"""A part that fills this share of the circle around it is a cap; what others leave of one fills less."""
+LEAST_ROUND = 0.5
+"""A part that fills this share of the circle around it is a cap: beside another, less is left of one."""
 
 
 def parted(logits: Tensor) -> tuple[Tensor, Tensor]:
