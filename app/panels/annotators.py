@@ -29,7 +29,7 @@ from fairyring.storage.second_versions import SecondVersion, doubts, images_comp
 NOBODY = "nobody else"
 MOST_IMAGES = 200
 """So many images are listed."""
-HOW = "Import what the second annotator labelled with --as predictions: it stands here then."
+HOW = "Import what the second annotator labelled with --as second: it stands here then."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     async def find() -> Both:
         image = session.image.id if session.image else None
         chosen = session.run_on_photo
-        wanted = chosen.name if chosen and chosen.kind == "import" else None
+        wanted = chosen.name if chosen and chosen.kind == "second" else None
         return await workspace.read(partial(_find, image=image, second=wanted))
 
     async def choose() -> None:
@@ -92,7 +92,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def _find(connection: Connection, *, image: int | None, second: str | None) -> Both:
-    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "import"}
+    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "second"}
     chosen = versions.get(second or "")
     if chosen is None:
         return Both(versions=list(versions))

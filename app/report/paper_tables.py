@@ -41,7 +41,7 @@ def _scored(project: Project, review: Review) -> list[_Scored]:
     found = []
     with project.read() as connection:
         runs = all_runs(connection)
-        for run in reversed(runs):
+        for run in reversed([run for run in runs if run.kind != "second"]):
             seen = {image.id for image in images_seen_by(connection, run.id)}
             wanted = [number for number in numbers if number in seen]
             pages = [each.page for each in reviewed_images(connection, wanted, run=run)]

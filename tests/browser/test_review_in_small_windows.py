@@ -47,7 +47,7 @@ def project(tmp_path: Path) -> Path:
     document = {"images": images, "annotations": caps, "categories": [{"id": 1, "name": "mushroom"}]}
     (tmp_path / LONG).write_text(json.dumps(document))
     with open_project(path) as opened:
-        import_paths(opened, [tmp_path / LONG], as_=ImportAs.predictions)
+        import_paths(opened, [tmp_path / LONG], as_=ImportAs.second)
         with opened.read() as connection:
             runs = all_runs(connection)
         for run in runs:
