@@ -10,6 +10,7 @@ import typer
 
 from fairyring.app.commands.files import named, write_json
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.model.evaluate.agreement import Agreement
@@ -53,7 +54,8 @@ def agreement(
         document = third_version(ours, versions, least_iou=agree_from)
         write_json(document, adjudicated)
         open_ = sum("doubt" in entry for entry in document["annotations"])
-        typer.echo(f"{len(document['annotations'])} caps in {adjudicated}, {open_} to be decided", err=True)
+        caps = how_many(len(document["annotations"]), "cap")
+        typer.echo(f"{caps} in {adjudicated}, {open_} to be decided", err=True)
     if as_json:
         typer.echo(json.dumps(to_builtins(found)))
         return

@@ -14,14 +14,12 @@ from fairyring.app.commands.files import named, write_bytes
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.app.review.figures import Review
     from fairyring.model.evaluate.agreement import Agreement
     from fairyring.storage.project import Project
-
-
-UNTOUCHED = "{} images that nobody has worked on are"
 
 
 def review(
@@ -85,13 +83,8 @@ def review(
     if agreement is not None:
         print_rows(f"annotations and {agreement[0]}", agreement_lines(agreement[1]), as_json=False)
     if found.untouched:
-        count = len(found.untouched)
-        told = (
-            "1 image that nobody has worked on is"
-            if count == 1
-            else f"{count} images that nobody has worked on are"
-        )
-        typer.echo(f"{told} not counted.", err=True)
+        count = how_many(len(found.untouched), "image")
+        typer.echo(f"Not counted, as nobody has worked on them: {count}.", err=True)
 
 
 @dataclass(frozen=True, kw_only=True)

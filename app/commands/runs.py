@@ -11,6 +11,7 @@ from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.storage.runs import RunRow
@@ -122,7 +123,7 @@ def compare(
         typer.echo(msgspec.json.encode(of_two(figures, difference)))
         return
     for each, said in zip((first, second), figures, strict=True):
-        print_centres(f"{each.name}, {compared.images} images", said)
+        print_centres(f"{each.name}, {how_many(compared.images, 'image')}", said)
     print_difference(difference)
 
 

@@ -64,7 +64,7 @@ def test_the_job_compares_what_is_stale_and_can_be_cancelled(project: Project) -
 
     with pytest.raises(CancelledError):
         compare_work(project)(cancel)
-    assert compare_work(project)(silent).message == "1 images compared."
+    assert compare_work(project)(silent).message == "1 image compared."
     assert compare_work(project)(silent).message == "Every image was up to date."
 
 
