@@ -20,7 +20,8 @@ def why_unmeasured(counts: Mapping[str, int]) -> str:
     if not counts["matched"]:
         return (
             f"None of {how_many(counts['marked'], 'marked cap')} matches one of "
-            f"{how_many(predictions, 'prediction')} (IoU of {LEAST_IOU:g} or more), so there is nothing to measure."
+            f"{how_many(predictions, 'prediction')} (IoU of {LEAST_IOU:g} or more), "
+            "so there is nothing to measure."
         )
     return (
         f"None of {how_many(counts['marked'], 'marked cap')} matches a prediction with a centre "
