@@ -22,7 +22,7 @@ from fairyring.storage.runs import get_run, predictions_by
 async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
     """Has photos compared with this run from now on (None: with the one on screen), this one at once."""
     session.run_on_photo = run
-    session.refresh("review")
+    session.refresh("review", "cap")
     if session.image is not None:
         await tell_differences(workspace, session, session.image.id)
 
@@ -45,13 +45,15 @@ async def tell_differences(workspace: Workspace, session: Session, image_id: int
 
     Raises StoreError where the project has no such image.
     """
-    caps = await workspace.read(partial(_load, image_id=image_id, run=session.run_on_photo))
+    run = session.run_on_photo
+    caps = await workspace.read(partial(_load, image_id=image_id, run=run))
     deleted = await workspace.read(partial(load_turned_down, image_id=image_id))
     worker = workspace.crew.of_image(image_id)
     found = await anyio.to_thread.run_sync(partial(worker.run, differences_of, *caps))
     extra = {cap.prediction.id for cap in found if cap.prediction and not cap.annotation}
     turned_down = [each for each in deleted if each.cap.prediction in extra]
-    session.send(Compared(image=image_id, caps=found, turned_down=turned_down))
+    is_second = run is not None and run.kind == "second"
+    session.send(Compared(image=image_id, caps=found, turned_down=turned_down, second=is_second))
 
 
 def _load(

@@ -66,6 +66,7 @@ def test_nothing_is_cut_and_nothing_is_to_be_scrolled_sideways(
         tab.page.get_by_text(folder, exact=True).first.click()
     choose(tab, "Figures by", "annotator")
     choose(tab, "First run", "instances.json")
+    choose(tab, "Second run", LONG)
     choose(tab, "Second annotator", LONG)
     for table in ("Groups of caps", "Two runs side by side", "Images of two annotators"):
         tab.page.get_by_role("table", name=table).wait_for()

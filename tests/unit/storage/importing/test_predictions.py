@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fairyring.model.geometry.shapes import Ellipse
+from fairyring.model.geometry.shapes import Circle, Ellipse
 from fairyring.storage.contents import (
     load_annotations,
     load_contents,
@@ -140,3 +140,12 @@ def test_a_version_that_was_the_only_run_leaves_images_without_one(beds, bens):
     with beds.read() as connection:
         assert load_latest_run(connection, 1) is None
         assert list_images(connection, ImageFilter(), limit=1).rows[0].predicted == 0
+
+
+def test_whether_a_second_annotator_placed_a_mark_is_kept(beds, write_coco, square):
+    file = write_coco([{"segmentation": square, "circle": [20, 20, 10]}, {"segmentation": TRIANGLE}])
+    run = import_paths(beds, [file], as_="second").run
+    with beds.read() as connection:
+        marked, drawn = predictions_by(connection, run, 1)
+    assert (marked.whole, marked.extra) == (Circle(20, 20, 10), {"marked": True})
+    assert (drawn.whole, drawn.extra) == (None, {})
