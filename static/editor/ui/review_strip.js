@@ -25,7 +25,8 @@ export function reviewStripIn(host, state, review) {
   const kind = element("span");
   const centres = lineOf("", COLOURS.selected);
   const other = lineOf("", COLOURS.predicted, "5 3");
-  const key = element("div", {}, lineOf("annotator’s", COLOURS.outline), other, centres);
+  const first = lineOf("", COLOURS.outline);
+  const key = element("div", {}, first, other, centres);
   const told = element("div", { attributes: { role: "status" } }, counter, kind);
   const keys = element("div", {});
   const strip = element("div", { class: "fairyring-review" }, told, key, keys);
@@ -39,6 +40,7 @@ export function reviewStripIn(host, state, review) {
     const cap = known ? review.selected(state) : null;
     counter.textContent = known ? countWords(new Standing(state, review)) : "Comparing…";
     kind.textContent = cap ? kindWords(state, review, cap) : "";
+    first.lastChild?.replaceWith(review.second ? "first annotator’s" : "annotator’s");
     other.lastChild?.replaceWith(review.second ? "second annotator’s" : "model’s");
     keys.replaceChildren(...keysOf(KEYS, review.second));
     centres.lastChild?.replaceWith(`between centres${review.times > 1 ? ` × ${review.times}` : ""}`);
