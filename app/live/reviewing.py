@@ -16,7 +16,7 @@ from fairyring.storage.contents import load_annotations, load_predictions, load_
 from fairyring.storage.images import get_image
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.records import Annotation, Image, Prediction, Run
-from fairyring.storage.runs import get_run, predictions_by
+from fairyring.storage.runs import all_runs, get_run, predictions_by
 
 
 async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
@@ -38,6 +38,20 @@ async def compare_photo_with_number(workspace: Workspace, session: Session, numb
         is_latest = latest is not None and run.id == latest.id
         await compare_photo_with(workspace, session, None if is_latest else run)
         session.redraw_at_once(("beside", "annotators"))
+
+
+async def follow_run_on_photo(workspace: Workspace, session: Session) -> None:
+    """Takes over what another process did to the run that photos are compared with: name, kind and end."""
+    known = session.run_on_photo
+    if known is None:
+        return
+    now = next((run for run in await workspace.read(all_runs) if run.id == known.id), None)
+    if now == known:
+        return
+    await compare_photo_with(workspace, session, now)
+    if now is None:
+        told = f"The run {known.name} is gone: photos are compared with the latest of each image again."
+        session.notify(told, "warning")
 
 
 async def tell_differences(workspace: Workspace, session: Session, image_id: int) -> None:

@@ -1,6 +1,7 @@
 /**
  * Gives fields of viser's panel the names that stand beside them: viser writes labels, but not every field
- * has the id that they name, and the buttons that close its notes have none.
+ * has the id that they name, and the buttons that close its notes have none. What is chosen from a list is told in full
+ * where the pointer rests, as the field may be too narrow for it.
  *
  * @module
  */
@@ -20,7 +21,13 @@ export function nameFields() {
       for (const field of row.querySelectorAll(FIELD)) {
         const own = field instanceof HTMLInputElement && field.labels?.length;
         if (!own) put(field, "aria-label", name);
+        if (isChoice(field)) put(field, "title", field.value);
       }
     }
   });
+}
+
+/** @type {(field: Element) => field is HTMLInputElement} */
+function isChoice(field) {
+  return field instanceof HTMLInputElement && field.readOnly && field.getAttribute("aria-haspopup") === "listbox";
 }
