@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -73,3 +74,8 @@ def test_nothing_is_cut_and_nothing_is_to_be_scrolled_sideways(
     tab.page.get_by_role("link", name="Report of all images against").wait_for()
     assert tab.page.evaluate(CUT) == []
     assert tab.page.evaluate(SCROLLED_SIDEWAYS) == 0
+    for field in ("Second annotator", "Second run", "On the photo"):
+        chosen = tab.page.get_by_role("combobox", name=field, exact=True)
+        chosen.hover()
+        expect(chosen).to_have_attribute("title", LONG)
+        assert chosen.evaluate("field => getComputedStyle(field).textOverflow") == "ellipsis"

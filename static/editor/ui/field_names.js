@@ -21,13 +21,15 @@ export function nameFields() {
       for (const field of row.querySelectorAll(FIELD)) {
         const own = field instanceof HTMLInputElement && field.labels?.length;
         if (!own) put(field, "aria-label", name);
-        if (isChoice(field)) put(field, "title", field.value);
       }
     }
   });
+  document.addEventListener("pointerover", ({ target }) => {
+    if (isChoice(target)) put(target, "title", target.value);
+  });
 }
 
-/** @type {(field: Element) => field is HTMLInputElement} */
-function isChoice(field) {
-  return field instanceof HTMLInputElement && field.readOnly && field.getAttribute("aria-haspopup") === "listbox";
+/** Whether it shows what was chosen from a list of the panel. @type {(target: EventTarget | null) => target is HTMLInputElement} */
+function isChoice(target) {
+  return target instanceof HTMLInputElement && target.matches("[data-dock-scroll] [aria-haspopup=listbox]");
 }
