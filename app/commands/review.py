@@ -101,21 +101,26 @@ def _reviews(project: Project, wanted: _Wanted) -> tuple[Review, Review | None]:
     """The review, and that of the other run on the same images."""
     from fairyring.app.review.figures import review_of
     from fairyring.app.review.two_runs import reviews_of_both
+    from fairyring.storage.errors import StoreError
     from fairyring.storage.predictions import latest_run
-    from fairyring.storage.runs import require_run
+    from fairyring.storage.runs import require_run, require_two
 
     with project.read() as connection:
         run = require_run(connection, wanted.run) if wanted.run is not None else None
         other = require_run(connection, wanted.against) if wanted.against is not None else None
         latest = latest_run(connection)
+    after = run or latest
     with steps_shown() as progress:
-        if other is not None and latest is not None:
+        if other is not None and after is not None:
+            require_two(other, after)
             before, found = reviews_of_both(
-                project, other, run or latest, images=wanted.images, only_sure=wanted.sure, progress=progress
+                project, other, after, images=wanted.images, only_sure=wanted.sure, progress=progress
             )
             return found, before
         found = review_of(project, run=run, images=wanted.images, only_sure=wanted.sure, progress=progress)
-        return found, None
+    if found.of_some and not found.images and not found.untouched:
+        raise StoreError(f"The project has no image called {wanted.images}.")
+    return found, None
 
 
 def _agreement(project: Project, second: str, images: str) -> tuple[str, Agreement]:

@@ -110,12 +110,13 @@ def compare(
     from fairyring.model.evaluate.centre_figures import CapPairing
     from fairyring.model.evaluate.two_runs import difference_of
     from fairyring.storage.project import open_project
-    from fairyring.storage.runs import require_run
+    from fairyring.storage.runs import require_run, require_two
 
     pairing = CapPairing(least_iou=iou, least_score=score)
     with open_project(folder) as project, steps_shown() as progress:
         with project.read() as connection:
             first, second = require_run(connection, run), require_run(connection, other)
+        require_two(first, second)
         compared = compare_runs(project, first, second, pairing, progress=progress)
     difference = difference_of(compared.first, compared.second)
     figures = compared.first.figures, compared.second.figures

@@ -35,7 +35,7 @@ def two_runs(first: Review, second: Review) -> Markup:
             ("Caps that changed most", "px before", "px after", "CDR % before", "CDR % after", "Floor %"),
             [
                 (
-                    f"{row['image']}: {row['cap']}",
+                    f"{row['image']}, {row['name']}",
                     number(row["first"]["px"], 2),
                     number(row["second"]["px"], 2),
                     number(row["first"]["cdr"]),
