@@ -19,6 +19,8 @@ class ImportAs(StrEnum):
 
     annotations = "annotations"
     predictions = "predictions"
+    second = "second"
+    """What a second annotator labelled, kept beside the annotations."""
 
 
 class Polygons(StrEnum):

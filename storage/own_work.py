@@ -14,7 +14,7 @@ from fairyring.model.errors import FairyringError
 from fairyring.storage.cap_validity import check_cap
 from fairyring.storage.change_sets import is_edit_of
 from fairyring.storage.db.rows import AnySelect, require_image
-from fairyring.storage.db.schema import annotation, change_set, edit, prediction, status_change, verdict
+from fairyring.storage.db.schema import annotation, change_set, edit, prediction, run, status_change, verdict
 from fairyring.storage.errors import StoreError
 from fairyring.storage.ledger import stored_annotations
 from fairyring.storage.queues import DECIDED
@@ -120,12 +120,21 @@ def _geometry(cap: Cap) -> tuple[Outline, Mark | None]:
 
 
 def _is_said_by_network(connection: Connection, image_id: int, geometry: tuple[Outline, Mark | None]) -> bool:
-    """Whether a cap is a prediction as it is, or as it was repaired when somebody took it."""
+    """Whether a cap is a prediction as it is, or as it was repaired when somebody took it.
+
+    With a mark it is one where a second annotator placed that mark.
+    """
     visible, mark = geometry
-    if mark is not None:
-        return False
-    asked = select(prediction.c.visible).where(prediction.c.image == image_id)
-    said = list(connection.execute(asked).scalars())
+    asked = (
+        select(prediction.c.visible, prediction.c.whole, run.c.kind)
+        .join(run, run.c.id == prediction.c.run)
+        .where(prediction.c.image == image_id)
+    )
+    said = [
+        each.visible
+        for each in connection.execute(asked)
+        if mark is None or (each.kind == "second" and each.whole == mark)
+    ]
     if visible in said:
         return True
     photo = require_image(connection, image_id)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain, count
-from typing import Any, Literal
+from typing import Any
 from uuid import uuid4
 
-from msgspec import Struct, field
-from sqlalchemy import Connection, func, insert, or_, select, update
+from msgspec import Struct, field, structs
+from sqlalchemy import Connection, exists, func, insert, or_, select, update
 
 from fairyring.model.coco.categories import DEFAULT_CATEGORY
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
@@ -26,7 +26,7 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import image, prediction, run
 from fairyring.storage.errors import StoreError
-from fairyring.storage.records import Cap, Outline, Run
+from fairyring.storage.records import Cap, Outline, Run, RunKind
 
 
 class NewPrediction(Struct, frozen=True, kw_only=True):
@@ -50,7 +50,7 @@ def add_run(
     connection: Connection,
     *,
     name: str,
-    kind: Literal["import", "simulated", "network"],
+    kind: RunKind,
     weights: str | None = None,
     settings: dict[str, Any] | None = None,
     key: str | None = None,
@@ -63,13 +63,14 @@ def add_run(
         kind: whence the predictions come.
         weights: SHA-256 of the weights.
         settings: whatever else decides the result.
-        key: names a run that must not be made twice; an existing run of this key is returned.
+        key: names a run that must not be made twice; an existing run of this key is returned, of this kind
+            from now on.
     """
     check_name(name, "name of a run")
     if key is not None:
         known = connection.execute(select(run).where(run.c.key == key)).first()
         if known is not None:
-            return run_of(known)
+            return _of_kind(connection, run_of(known), kind)
     values = {
         "name": _free_name(connection, name),
         "kind": kind,
@@ -180,15 +181,37 @@ def add_predictions(
 
 
 def saw(connection: Connection, *, run_id: int, image_ids: Sequence[int]) -> None:
-    """Notes that a run saw these images: it is now their latest, unless a later one saw them."""
+    """Notes that a run saw these images: it is now their latest, unless a later one saw them.
+
+    What a second annotator labelled never is: images go on to show what the latest model said of them.
+    """
     later = image.c.run.is_(None) | (image.c.run < run_id)
+    of_a_model = exists().where(run.c.id == run_id, run.c.kind != "second")
     for image_id in image_ids:
-        connection.execute(update(image).where(image.c.id == image_id, later).values(run=run_id))
+        connection.execute(update(image).where(image.c.id == image_id, later, of_a_model).values(run=run_id))
     recount(connection, image_ids)
 
 
+def _of_kind(connection: Connection, known: Run, kind: RunKind) -> Run:
+    """The run as one of this kind. Images that it was the latest of, and is no more, show the one before."""
+    if known.kind == kind:
+        return known
+    connection.execute(update(run).where(run.c.id == known.id).values(kind=kind))
+    if kind == "second":
+        before = (
+            select(func.max(prediction.c.run))
+            .join(run, run.c.id == prediction.c.run)
+            .where(prediction.c.image == image.c.id, run.c.kind != "second")
+            .scalar_subquery()
+        )
+        shown = list(connection.execute(select(image.c.id).where(image.c.run == known.id)).scalars())
+        connection.execute(update(image).where(image.c.run == known.id).values(run=before))
+        recount(connection, shown)
+    return structs.replace(known, kind=kind)
+
+
 def latest_run(connection: Connection) -> Run | None:
-    """The run made last."""
+    """The run made last; what a second annotator labelled is none."""
     row = latest_run_row(connection)
     return None if row is None else run_of(row)
 

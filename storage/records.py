@@ -110,12 +110,16 @@ class Prediction(Struct, frozen=True, kw_only=True):
     extra: dict[str, Any] = field(default_factory=dict)
 
 
+RunKind = Literal["import", "simulated", "network", "second"]
+"""Whence a run comes; what is of kind ``second`` a second annotator labelled, and no model said."""
+
+
 class Run(Struct, frozen=True, kw_only=True):
     """What made a set of predictions."""
 
     id: int
     name: str
-    kind: Literal["import", "simulated", "network"]
+    kind: RunKind
     made_at: str
     """UTC, ISO 8601."""
     weights: str | None = None

@@ -54,6 +54,8 @@ def require_run(connection: Connection, said: str) -> Run:
 
     Raises StoreError where there is none, or several have this name.
     """
+    if not said.strip():
+        raise StoreError(f"A run has a name or a number, and none was given. {_those_there_are(connection)}")
     called = [run_of(row) for row in connection.execute(select(run).where(run.c.name == said))]
     if len(called) == 1:
         return called[0]
@@ -65,6 +67,12 @@ def require_run(connection: Connection, said: str) -> Run:
     if row is None:
         raise StoreError(f"There is no run called {said}. {_those_there_are(connection)}")
     return run_of(row)
+
+
+def require_two(run: Run, other: Run) -> None:
+    """Raises StoreError where two runs that are to be compared are one."""
+    if run.id == other.id:
+        raise StoreError(f"Both are {run.name}, which is one run; choose another one to compare it with.")
 
 
 def get_run(connection: Connection, number: int) -> Run:

@@ -1,4 +1,4 @@
-"""How far annotations agree with a second version that was imported as a run, as comparisons keep it."""
+"""How far annotations agree with what a second annotator labelled, which is a run, as comparisons keep it."""
 
 from __future__ import annotations
 

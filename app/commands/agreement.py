@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from fairyring.app.commands.files import named, write_json
+from fairyring.app.commands.files import is_same_file, named, write_json
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.model.evaluate.agreement import Agreement
@@ -45,15 +46,21 @@ def agreement(
     from fairyring.model.evaluate.agreement import adjudicated as third_version
     from fairyring.model.evaluate.agreement import agreement_of, versions_of
 
-    ours = read_document(first)
+    if adjudicated is not None and any(is_same_file(adjudicated, each) for each in (first, second)):
+        raise typer.BadParameter(
+            "the third version would take the place of one of the two; name another file",
+            param_hint="--adjudicated",
+        )
+    ours, theirs = read_document(first), read_document(second)
     with named(first, second):
-        versions = versions_of(ours, read_document(second))
+        versions = versions_of(ours, theirs)
     found = agreement_of(versions)
     if adjudicated is not None:
         document = third_version(ours, versions, least_iou=agree_from)
         write_json(document, adjudicated)
         open_ = sum("doubt" in entry for entry in document["annotations"])
-        typer.echo(f"{len(document['annotations'])} caps in {adjudicated}, {open_} to be decided", err=True)
+        caps = how_many(len(document["annotations"]), "cap")
+        typer.echo(f"{caps} in {adjudicated}, {open_} to be decided", err=True)
     if as_json:
         typer.echo(json.dumps(to_builtins(found)))
         return

@@ -48,3 +48,11 @@ def named(*paths: Path) -> Iterator[None]:
 def about(error: FairyringError, *paths: Path) -> FileError:
     """The error with the names of the files that it may be about."""
     return FileError(f"{' or '.join(map(str, paths))}: {error}")
+
+
+def is_same_file(path: Path, other: Path) -> bool:
+    """Whether two paths lead to one file that is there, by whatever names and links."""
+    try:
+        return path.samefile(other)
+    except OSError:
+        return False

@@ -30,11 +30,17 @@ def print_report(
     """Prints the problems and what was taken how on stderr, the figures on stdout."""
     for sentence in sentences_on(report.problems):
         typer.echo(sentence, err=True)
-    if report.polygons and as_ is not ImportAs.predictions:
+    if report.polygons and as_ in (None, ImportAs.annotations):
         typer.echo(f"{report.polygons} polygons of labelme {_TAKEN_FOR[polygons]}", err=True)
     if report.boxes:
         typer.echo(
             f"{report.boxes} boxes without an outline are rectangles now, and doubtful: correct their rims.",
+            err=True,
+        )
+    if report.unscored:
+        typer.echo(
+            "No label carries a score, as those of a model do. If a person labelled them, import the same "
+            "again with --as second: then CDR goes on to be measured against the model.",
             err=True,
         )
     if known_caps is KnownCaps.tell and report.images_otherwise:
@@ -48,7 +54,7 @@ def print_report(
     if report.useless:
         others = f" and of {len(report.useless) - 1} more files" if len(report.useless) > 1 else ""
         typer.echo(f"No label of {report.useless[0]}{others} could be used.", err=True)
-    _print_figures(report, as_json=as_json)
+    _print_figures(report, as_=as_, as_json=as_json)
 
 
 def sentences_on(problems: Sequence[Problem]) -> Iterator[str]:
@@ -74,7 +80,7 @@ def _untaken(report: ImportReport) -> str:
     )
 
 
-def _print_figures(report: ImportReport, *, as_json: bool) -> None:
+def _print_figures(report: ImportReport, *, as_: ImportAs | None, as_json: bool) -> None:
     figures = {
         "images": report.images,
         "images_known": report.images_known,
@@ -96,8 +102,9 @@ def _print_figures(report: ImportReport, *, as_json: bool) -> None:
         ]
         typer.echo(json.dumps(figures | {"listed": listed, "useless": report.useless}))
         return
+    said = "caps of a second annotator" if as_ is ImportAs.second else "predictions"
     typer.echo(
-        f"{report.images} new images, {report.annotations} annotations, {report.predictions} predictions; "
+        f"{report.images} new images, {report.annotations} annotations, {report.predictions} {said}; "
         f"already there: {report.images_known} images, {report.known} shapes"
         f"{_said_of_known(report)}; {len(report.problems)} problems"
     )

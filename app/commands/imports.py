@@ -38,7 +38,11 @@ def import_(
     ] = ImportFormat.auto,
     as_: Annotated[
         ImportAs | None,
-        typer.Option("--as", help="What the shapes become: annotations; asked where all carry a score."),
+        typer.Option(
+            "--as",
+            help="What the shapes become: annotations, what a model said, or what a second annotator "
+            "labelled. Asked where all carry a score.",
+        ),
     ] = None,
     polygons: Annotated[
         Polygons,
@@ -68,7 +72,8 @@ def import_(
 
     Caps that the project has already are recognised by their uid, their id or their outline, and never
     doubled: what files say otherwise of them is told, unless an option says what to do with it. The exit code
-    is 1 where a file of labels has none that could be used.
+    is 1 where a file of labels has none that could be used. What a second annotator labelled in the same
+    photos (--as second) stands beside the annotations, to be compared with them.
 
     Example: `fairyring import beds photos/ labels.json --as predictions`
     """

@@ -14,14 +14,12 @@ from fairyring.app.commands.files import named, write_bytes
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.app.review.figures import Review
     from fairyring.model.evaluate.agreement import Agreement
     from fairyring.storage.project import Project
-
-
-UNTOUCHED = "{} images that nobody has worked on are"
 
 
 def review(
@@ -85,13 +83,8 @@ def review(
     if agreement is not None:
         print_rows(f"annotations and {agreement[0]}", agreement_lines(agreement[1]), as_json=False)
     if found.untouched:
-        count = len(found.untouched)
-        told = (
-            "1 image that nobody has worked on is"
-            if count == 1
-            else f"{count} images that nobody has worked on are"
-        )
-        typer.echo(f"{told} not counted.", err=True)
+        count = how_many(len(found.untouched), "image")
+        typer.echo(f"Not counted, as nobody has worked on them: {count}.", err=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,21 +101,26 @@ def _reviews(project: Project, wanted: _Wanted) -> tuple[Review, Review | None]:
     """The review, and that of the other run on the same images."""
     from fairyring.app.review.figures import review_of
     from fairyring.app.review.two_runs import reviews_of_both
+    from fairyring.storage.errors import StoreError
     from fairyring.storage.predictions import latest_run
-    from fairyring.storage.runs import require_run
+    from fairyring.storage.runs import require_run, require_two
 
     with project.read() as connection:
         run = require_run(connection, wanted.run) if wanted.run is not None else None
         other = require_run(connection, wanted.against) if wanted.against is not None else None
         latest = latest_run(connection)
+    after = run or latest
     with steps_shown() as progress:
-        if other is not None and latest is not None:
+        if other is not None and after is not None:
+            require_two(other, after)
             before, found = reviews_of_both(
-                project, other, run or latest, images=wanted.images, only_sure=wanted.sure, progress=progress
+                project, other, after, images=wanted.images, only_sure=wanted.sure, progress=progress
             )
             return found, before
         found = review_of(project, run=run, images=wanted.images, only_sure=wanted.sure, progress=progress)
-        return found, None
+    if found.of_some and not found.images and not found.untouched:
+        raise StoreError(f"The project has no image called {wanted.images}.")
+    return found, None
 
 
 def _agreement(project: Project, second: str, images: str) -> tuple[str, Agreement]:

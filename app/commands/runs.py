@@ -11,6 +11,7 @@ from fairyring.app.commands.names import checked_name
 from fairyring.app.commands.progress import steps_shown
 from fairyring.app.commands.project import ProjectFolder
 from fairyring.app.commands.rows import AsJson, print_rows
+from fairyring.app.how_many import how_many
 
 if TYPE_CHECKING:
     from fairyring.storage.runs import RunRow
@@ -109,12 +110,13 @@ def compare(
     from fairyring.model.evaluate.centre_figures import CapPairing
     from fairyring.model.evaluate.two_runs import difference_of
     from fairyring.storage.project import open_project
-    from fairyring.storage.runs import require_run
+    from fairyring.storage.runs import require_run, require_two
 
     pairing = CapPairing(least_iou=iou, least_score=score)
     with open_project(folder) as project, steps_shown() as progress:
         with project.read() as connection:
             first, second = require_run(connection, run), require_run(connection, other)
+        require_two(first, second)
         compared = compare_runs(project, first, second, pairing, progress=progress)
     difference = difference_of(compared.first, compared.second)
     figures = compared.first.figures, compared.second.figures
@@ -122,7 +124,7 @@ def compare(
         typer.echo(msgspec.json.encode(of_two(figures, difference)))
         return
     for each, said in zip((first, second), figures, strict=True):
-        print_centres(f"{each.name}, {compared.images} images", said)
+        print_centres(f"{each.name}, {how_many(compared.images, 'image')}", said)
     print_difference(difference)
 
 

@@ -24,6 +24,7 @@ from fairyring.app.static_folder import STATIC
 from fairyring.storage.compared_caps import caps_of_image
 from fairyring.storage.comparisons import list_comparisons
 from fairyring.storage.errors import StoreError
+from fairyring.storage.images import get_image
 from fairyring.storage.predictions import latest_run
 from fairyring.storage.project import Project
 from fairyring.storage.records import Run
@@ -65,12 +66,19 @@ def reviews_of(project: Project) -> Callable[[Request], Awaitable[Response]]:
     return reviews
 
 
+NOTHING = 0
+"""A number that no image and no run has."""
+
+
 def _number(request: Request, name: str) -> int | None:
+    """The number that was said; None where none was, `NOTHING` where it is none."""
     said = request.query_params.get(name, "")
-    return int(said) if said.isdecimal() and len(said) < 19 else None
+    return None if not said else int(said) if said.isdecimal() and len(said) < 19 else NOTHING
 
 
 def _answer(project: Project, asked: _Asked) -> Response | None:
+    if asked.image is not None and not _has_image(project, asked.image):
+        return None
     if asked.what == REPORT:
         return _report(project, asked)
     name, _, kind = asked.what.partition(".")
@@ -84,6 +92,13 @@ def _answer(project: Project, asked: _Asked) -> Response | None:
     if kind == "csv":
         return _kept(_csv(rows), "text/csv; charset=utf-8", asked.what)
     return _kept(_alone(plot), "image/svg+xml", asked.what)
+
+
+def _has_image(project: Project, number: int) -> bool:
+    with project.read() as connection, suppress(StoreError):
+        get_image(connection, number)
+        return True
+    return False
 
 
 def _report(project: Project, asked: _Asked) -> Response | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from fairyring.app.caps.comparison import compare_image
+from fairyring.app.how_many import how_many
 from fairyring.app.jobs.runner import Result
 from fairyring.app.workers.crew import Run, here
 from fairyring.model.progress import Progress
@@ -25,7 +26,9 @@ def compare_work(project: Project, *, run: Run = here) -> Callable[[Progress], R
         for done, image_id in enumerate(stale):
             progress(done, len(stale), "Comparing caps with predictions")
             compare_image(project, image_id, run=run)
-        return Result(f"{len(stale)} images compared." if stale else "Every image was up to date.")
+        return Result(
+            f"{how_many(len(stale), 'image')} compared." if stale else "Every image was up to date."
+        )
 
     return work
 
@@ -39,6 +42,6 @@ def compare_with_run_work(project: Project, run: Predicting) -> Callable[[Progre
         for done, image_id in enumerate(lacking):
             progress(done, len(lacking), f"Comparing caps with {run.name}")
             compare_image(project, image_id, with_run=run.id)
-        return Result(f"{len(lacking)} images compared with {run.name}.")
+        return Result(f"{how_many(len(lacking), 'image')} compared with {run.name}.")
 
     return work

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from fairyring.app.caps.runs_compared import compare_runs
+from fairyring.app.how_many import how_many
 from fairyring.app.jobs.runner import Result
 from fairyring.model.evaluate.centre_figures import CapPairing
 from fairyring.model.evaluate.two_runs import difference_of
@@ -24,7 +25,7 @@ def compare_runs_work(project: Project, first: Run, second: Run) -> Callable[[Pr
             for run, of in ((first, compared.first), (second, compared.second))
         ]
         difference = difference_of(compared.first, compared.second)
-        images = f"{compared.images} image{'' if compared.images == 1 else 's'}"
+        images = how_many(compared.images, "image")
         return Result(f"On {images}. {' '.join(said)} {_nearer(difference, first, second)}")
 
     return work
@@ -44,6 +45,6 @@ def _nearer(difference: dict[str, Any], first: Run, second: Run) -> str:
         f"second less first {interval['mean']:+.2f} px ({interval['low']:+.2f} to {interval['high']:+.2f})"
     )
     return (
-        f"Of the {difference['both']} caps that both found, {first.name} is nearer in "
+        f"Of the {how_many(difference['both'], 'cap')} that both found, {first.name} is nearer in "
         f"{difference['first_nearer']}, {second.name} in {difference['second_nearer']}: {apart}."
     )

@@ -7,6 +7,7 @@ from uuid import uuid4
 
 import anyio.to_thread
 
+from fairyring.app.how_many import how_many
 from fairyring.app.live.opening import open_image
 from fairyring.app.live.session import Session
 from fairyring.app.live.statuses import announce_statuses
@@ -59,7 +60,7 @@ async def approve_rest(workspace: Workspace, session: Session) -> None:
     approved, refused = await anyio.to_thread.run_sync(partial(_approve, workspace, session, queue, words))
     images = await workspace.read(lambda connection: [get_image(connection, each) for each in approved])
     announce_statuses(workspace, images, user=session.user)
-    told = f"{len(approved)} images approved."
+    told = f"{how_many(len(approved), 'image')} approved."
     session.notify(f"{told} {len(refused)} not: {refused[0]}" if refused else told)
     workspace.refresh("images", "desk", "queue", "status")
 

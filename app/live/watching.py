@@ -10,6 +10,7 @@ from sqlalchemy import Connection
 
 from fairyring.app.live.missing_outlines import find_other_outlines, find_outlines_of
 from fairyring.app.live.opening import CHANGES_IMAGE, reopen
+from fairyring.app.live.reviewing import follow_run_on_photo
 from fairyring.app.live.session import Session
 from fairyring.app.live.statuses import tell_status
 from fairyring.app.live.taking_out import leave_missing
@@ -56,7 +57,8 @@ async def catch_up(workspace: Workspace) -> None:
     for tab in workspace.tabs:
         if tab.image is None and tab.outbox is not None:
             await reopen(workspace, tab, None)
-    workspace.refresh(*CHANGES_IMAGE, "predict", "runs")
+        await follow_run_on_photo(workspace, tab)
+    workspace.refresh(*CHANGES_IMAGE, "gallery", "beside", "plots", "predict", "runs")
     await find_other_outlines(workspace)
 
 

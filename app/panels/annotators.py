@@ -9,6 +9,7 @@ from functools import partial
 from sqlalchemy import Connection
 
 from fairyring.app.editor_commands import COMMANDS
+from fairyring.app.how_many import how_many
 from fairyring.app.jobs.comparing import compare_with_run_work
 from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
@@ -29,7 +30,7 @@ from fairyring.storage.second_versions import SecondVersion, doubts, images_comp
 NOBODY = "nobody else"
 MOST_IMAGES = 200
 """So many images are listed."""
-HOW = "Import what the second annotator labelled with --as predictions: it stands here then."
+HOW = "Import what the second annotator labelled with --as second: it stands here then."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +64,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
     async def find() -> Both:
         image = session.image.id if session.image else None
         chosen = session.run_on_photo
-        wanted = chosen.name if chosen and chosen.kind == "import" else None
+        wanted = chosen.name if chosen and chosen.kind == "second" else None
         return await workspace.read(partial(_find, image=image, second=wanted))
 
     async def choose() -> None:
@@ -92,7 +93,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 
 def _find(connection: Connection, *, image: int | None, second: str | None) -> Both:
-    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "import"}
+    versions = {run.name: run for run in reversed(all_runs(connection)) if run.kind == "second"}
     chosen = versions.get(second or "")
     if chosen is None:
         return Both(versions=list(versions))
@@ -116,7 +117,7 @@ def annotators_page(found: Both, current: int | None) -> Markup:
         None if found.here else element("div", f"{found.second.name} holds nothing of this photo."),
         _figures(found, found.second, current),
         _images(found.images, found.second, current),
-        element("div", f"{found.lacking} images are not compared yet.") if found.lacking else None,
+        element("div", f"Not compared yet: {how_many(found.lacking, 'image')}.") if found.lacking else None,
         class_="fr-review fr-quiet",
     )
 
@@ -147,7 +148,7 @@ def _figures(found: Both, second: Run, current: int | None) -> Markup:
         ),
         ("kappa of doubtful", "doubtful", _kappa(here.doubtful if here else None), _kappa(found.doubtful)),
     )
-    titles = {f"annotations and {second.name}": None, "this photo": 64, _counted_images(len(images)): 64}
+    titles = {f"annotations and {second.name}": None, "this photo": 64, how_many(len(images), "image"): 64}
     lines = [
         element(
             "tr", *_cells((name, _counted(kind, of_photo, this_photo), _counted(kind, of_all, all_images)))
@@ -168,7 +169,9 @@ def _images(images: Sequence[SecondVersion], second: Run, current: int | None) -
     rows = [_row_of_image(each, second, is_current=each.image == current) for each in images[:MOST_IMAGES]]
     left_out = len(images) - len(rows)
     more = (
-        element("div", f"{left_out} images on which they agree better are not listed.") if left_out else None
+        element("div", f"Not listed: {how_many(left_out, 'image')} on which they agree better.")
+        if left_out
+        else None
     )
     titles = {"Image": None, "Missed": 48, "Extra": 42, "IoU": 46, "px": 46}
     table = _table("Images of two annotators", titles, rows)
@@ -202,10 +205,6 @@ def _table(name: str, titles: Mapping[str, int | None], rows: Sequence[Markup]) 
 
 def _cells(row: Sequence[Content]) -> list[Markup]:
     return [element("td", value, class_="fr-number" if nth else None) for nth, value in enumerate(row)]
-
-
-def _counted_images(count: int) -> str:
-    return "1 image" if count == 1 else f"{count} images"
 
 
 def _mean(of: Sequence[tuple[float | None, int]]) -> float | None:

@@ -9,6 +9,7 @@ from functools import partial
 from sqlalchemy import Connection
 
 from fairyring.app.editor_commands import COMMANDS
+from fairyring.app.how_many import how_many
 from fairyring.app.jobs.comparing import compare_with_run_work
 from fairyring.app.live.reviewing import compare_photo_with
 from fairyring.app.live.session import Session
@@ -123,7 +124,7 @@ def beside_page(found: Beside) -> Markup:
         return element("div", "No image was compared with both yet.", class_="fr-review fr-quiet")
     head = element(
         "tr",
-        element("th", f"{found.both.images} images"),
+        element("th", how_many(found.both.images, "image")),
         *(element("th", run.name, class_="fr-number") for run in (found.before, found.after)),
     )
     return element(

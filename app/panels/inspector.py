@@ -30,6 +30,7 @@ from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.contents import load_prediction, load_predictions, load_run
 from fairyring.storage.journal import Entry, history
 from fairyring.storage.records import Annotation, Mark, Prediction, Run, Shape
+from fairyring.storage.runs import predictions_by
 from fairyring.storage.verdicts import verdicts_of
 
 
@@ -106,7 +107,12 @@ async def _background(
         )
 
     # A cap is compared with all that was said, also with what is not offered where the cap lies.
-    said = await workspace.read(lambda connection: load_predictions(connection, caps.image.id))
+    run, image = session.run_on_photo, caps.image.id
+    said = await workspace.read(
+        lambda connection: (
+            predictions_by(connection, run.id, image) if run else load_predictions(connection, image)
+        )
+    )
     worker = workspace.crew.of_image(caps.image.id)
     judged = await session.copy.ask(worker, caps, _judged, annotation.uid, near_cap(annotation, said))
     note, arcs, pair = judged

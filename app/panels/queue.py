@@ -10,6 +10,7 @@ from typing import Any
 import viser
 from sqlalchemy import Connection
 
+from fairyring.app.how_many import how_many
 from fairyring.app.live.queues import approve_rest, begin_queue, leave_queue
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
@@ -115,7 +116,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
         stale = sum(not each.compared for each in found)
         if stale and choice.order.value in NEED_COMPARISONS:
             session.notify(
-                f"{stale} images are not compared with the predictions as they are now: "
+                f"Not compared with the predictions as they are now: {how_many(stale, 'image')}. "
                 "“Bring up to date” first.",
                 "warning",
             )
@@ -170,7 +171,7 @@ def size_words(lot: int, *, sample: int | None) -> Markup:
     if not lot:
         words = "No image fits this queue: choose another order or annotator."
     elif sample is not None:
-        words = f"{sample} of {lot} images have to be looked at"
+        words = f"{sample} of {how_many(lot, 'image')} {'has' if sample == 1 else 'have'} to be looked at"
     return element("div", words, class_="fr-review fr-quiet", role="status")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from fairyring.app.addresses import review_address
+from fairyring.app.how_many import how_many
 from fairyring.app.panels.counted import counted, titles_of
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.review_found import USUAL, Review, Wanted
@@ -36,7 +37,7 @@ def review_page(review: Review, current: int | None, wanted: Wanted = USUAL) -> 
     if review.run is None:
         return _hint("No predictions yet; there is nothing to compare with.")
     if not review.rows and review.stale:
-        return _hint(f"{review.stale} images have not been compared with the predictions yet.")
+        return _hint(f"Not compared with the predictions yet: {how_many(review.stale, 'image')}.")
     if not review.rows or review.totals is None:
         return _hint(
             "Correct some caps and mark their centres: then this compares them with the predictions."
@@ -51,7 +52,7 @@ def review_page(review: Review, current: int | None, wanted: Wanted = USUAL) -> 
             element("tbody", *(_row(row, current) for row in review.rows)),
             class_="fr-list",
         ),
-        element("div", f"{review.first + 1}–{last} of {review.total} images", class_="fr-quiet"),
+        element("div", f"{review.first + 1}–{last} of {how_many(review.total, 'image')}", class_="fr-quiet"),
         _untouched(review.untouched),
         _reports(current, wanted),
         class_="fr-review",
@@ -168,7 +169,7 @@ def _head() -> Markup:
 
 def _row(row: ComparisonRow, current: int | None) -> Markup:
     figures = row.comparison
-    told = f"{figures.caps} caps, CDR {_percent(figures.cdr_mean)} %{_floor(row)}"
+    told = f"{how_many(figures.caps, 'cap')}, CDR {_percent(figures.cdr_mean)} %{_floor(row)}"
     told += "; edited since it was compared" if row.stale else ""
     image = Group(by="image", value=str(figures.image))
     numbers: tuple[Content, ...] = (

@@ -15,10 +15,9 @@ from fairyring.app.panels.callbacks import Redraw, person_did
 from fairyring.app.panels.facts import definitions
 from fairyring.app.panels.markup import Markup, element
 from fairyring.storage.choices import Only
-from fairyring.storage.errors import StoreError
 from fairyring.storage.exporting import Wanted
 from fairyring.storage.records import Run
-from fairyring.storage.runs import RunRow, list_runs, rename_run, require_run
+from fairyring.storage.runs import RunRow, list_runs, rename_run, require_run, require_two
 
 NO_RUNS: Sequence[str] = ("none yet",)
 
@@ -60,8 +59,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def compare_them() -> None:
         first, second = await run_called(chosen.value), await run_called(other.value)
-        if first.id == second.id:
-            raise StoreError("These are one run; choose another one to compare it with.")
+        require_two(first, second)
         work = compare_runs_work(workspace.project, first, second)
         workspace.start_job(session, f"Comparison of {first.name} and {second.name}", work)
 

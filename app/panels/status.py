@@ -80,9 +80,13 @@ def _progress() -> Markup:
 
 def _person_line(session: Session, project: str) -> list[Markup]:
     return [
-        element("span", project, class_="fr-ellipsis", title="The project"),
+        element("span", project, class_="fr-ellipsis", title=f"The project {project}"),
         element(
-            "a", session.user, href="/name", title="Not you? Change the name", class_="fr-ellipsis fr-push"
+            "a",
+            session.user,
+            href="/name",
+            title=f"Not {session.user}? Change the name",
+            class_="fr-ellipsis fr-push",
         ),
     ]
 

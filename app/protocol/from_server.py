@@ -84,6 +84,8 @@ class Compared(FromServer, frozen=True, tag="compared"):
     caps: list[ComparedCap]
     turned_down: list[Annotation]
     """What people have deleted of the predictions that match no cap."""
+    second: bool
+    """Whether it is what a second annotator labelled that is compared, and not what a model said."""
 
 
 class MarkAgain(FromServer, frozen=True, tag="mark_again"):

@@ -89,7 +89,8 @@ def _photos(project: Project, review: Review) -> list[Markup]:
     shown = []
     for image in review.images:
         pictures = zip(WORDS, side_by_side(project, image.id, run=review.run), strict=False)
-        shown += [_photo(f"{image.file_name}: {word}", address) for word, address in pictures]
+        of_one = (_photo(f"{image.file_name}: {word}", address) for word, address in pictures)
+        shown.append(element("section", *of_one, class_="photos"))
     return [element("h2", "Marked and predicted contours"), *shown] if shown else []
 
 

@@ -107,8 +107,8 @@ def _gallery(project: Project, review: Review, figures: dict[str, Any]) -> Marku
     shown = []
     for cap, address in zip(worst, close_ups(project, worst), strict=True):
         row = cap.measured.row
-        told = f"{row.image}, {cap.name}: CDR {number(row.cdr)} %, {number(row.px, 1)} px"
-        told += "" if cap.floor is None else f", floor {number(cap.floor)} %"
+        told = f"{row.image}, {cap.name}: CDR {number(row.cdr)}\u00a0%, {number(row.px, 1)}\u00a0px"
+        told += "" if cap.floor is None else f", floor {number(cap.floor)}\u00a0%"
         picture = element("img", src=address, alt=told) if address else element("p", "The photo is gone.")
         shown.append(element("figure", picture, element("figcaption", told)))
     return element("div", element("p", legend, class_="quiet"), element("div", *shown, class_="gallery"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fairyring.app.how_many import how_many
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.report.tables import number, table
 from fairyring.model.evaluate.agreement import Agreement
@@ -37,7 +38,7 @@ def two_annotators(second: str, found: Agreement) -> Markup:
     return element(
         "section",
         element("h2", f"Two annotators: the annotations and {second}"),
-        table(("", f"{len(found.images)} images", "95 of 100"), rows),
+        table(("", how_many(len(found.images), "image"), "95 of 100"), rows),
         element("h3", "Image by image"),
         table(("Image", "Matched", "Missed", "Extra", "IoU", "px"), images),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from fairyring.app.how_many import how_many
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.report.tables import number, percent, table
 from fairyring.app.review.figures import Review
@@ -34,7 +35,7 @@ def two_runs(first: Review, second: Review) -> Markup:
             ("Caps that changed most", "px before", "px after", "CDR % before", "CDR % after", "Floor %"),
             [
                 (
-                    f"{row['image']}: {row['cap']}",
+                    f"{row['image']}, {row['name']}",
                     number(row["first"]["px"], 2),
                     number(row["second"]["px"], 2),
                     number(row["first"]["cdr"]),
@@ -54,7 +55,7 @@ def nearer_words(found: dict[str, Any]) -> str:
         return "No cap was found by both."
     px = of["px"]
     return (
-        f"Of {of['both']} caps that both found, "
+        f"Of {how_many(of['both'], 'cap')} that both found, "
         f"{_name(found['first'])} is nearer in {of['first_nearer']} and "
         f"{_name(found['second'])} in {of['second_nearer']}: second less first "
         f"{px['mean']:+.2f} px ({px['low']:+.2f} to {px['high']:+.2f} in 95 of 100)."

@@ -1,6 +1,6 @@
 """What two people labelled in the same photos: the annotations, and the version of somebody else.
 
-That is a run, where it was imported as predictions, or a COCO file. Runs hold no caps to be ignored, so how
+That is a run, where it was imported, or a COCO file. Runs hold no caps to be ignored, so how
 far the two agree on these can be told of a file alone.
 """
 

@@ -84,6 +84,7 @@ def _changed(first: ReviewedCap, second: ReviewedCap) -> dict[str, Any]:
     return {
         "image": row.image,
         "cap": row.truth,
+        "name": first.name,
         "floor": first.floor,
         "first": {"cdr": row.cdr, "px": row.px},
         "second": {"cdr": second.measured.row.cdr, "px": second.measured.row.px},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from fairyring.app.how_many import how_many
 from fairyring.model.evaluate.matching import LEAST_IOU
 
 
@@ -18,10 +19,11 @@ def why_unmeasured(counts: Mapping[str, int]) -> str:
         return "Nothing is predicted, so there is nothing to measure."
     if not counts["matched"]:
         return (
-            f"None of {counts['marked']} marked caps matches one of {predictions} predictions "
-            f"(IoU of {LEAST_IOU:g} or more), so there is nothing to measure."
+            f"None of {how_many(counts['marked'], 'marked cap')} matches one of "
+            f"{how_many(predictions, 'prediction')} (IoU of {LEAST_IOU:g} or more), "
+            "so there is nothing to measure."
         )
     return (
-        f"None of {counts['marked']} marked caps matches a prediction with a centre "
+        f"None of {how_many(counts['marked'], 'marked cap')} matches a prediction with a centre "
         f"(IoU of {LEAST_IOU:g} or more); what matches has no mark."
     )

@@ -13,10 +13,14 @@ MANY = 50
 
 
 def reach_of(moves: NDArray[np.float64]) -> float:
-    """How far a plot of these errors (n, 2) reaches from its middle, in their unit."""
+    """How far a plot of these errors (n, 2), two at least, reaches from its middle, in their unit.
+
+    It holds all of a few points, most of many, and always the whole ellipse that ``axes_of_spread`` tells.
+    """
     sizes = np.abs(moves)
     furthest = np.quantile(sizes, 0.98) if len(moves) >= MANY else sizes.max()
-    return 1.1 * max(float(furthest), 0.1)
+    ends = np.abs(moves.mean(axis=0)) + OF_95 * moves.std(axis=0, ddof=1)
+    return 1.1 * max(float(furthest), float(ends.max()), 0.1)
 
 
 def axes_of_spread(moves: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

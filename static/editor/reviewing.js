@@ -46,8 +46,8 @@ export class Reviewing {
   }
 
   /** @type {(message: Compared) => void} */
-  take({ image, caps }) {
-    if (image === this.#state.image?.id) this.review.take(image, caps);
+  take({ image, caps, second }) {
+    if (image === this.#state.image?.id) this.review.take(image, caps, second);
   }
 
   /** Selects a cap of the image on screen, which may be one that only the comparison knows. @type {(uid: string) => Promise<void>} */

@@ -168,11 +168,14 @@ def enter_predictions(
     def row_of(photo: Photo, cap: FoundCap) -> dict[str, Any]:
         # A box alone makes a cap doubtful as a label; only what the file says is kept of a prediction.
         doubted = cap.tells_doubtful and cap.cap.doubtful
+        said = {
+            key: True for key, holds in (("doubt", doubted), ("marked", cap.cap.mark is not None)) if holds
+        }
         return (
             values_of_fit(Fit(whole=cap.whole, centre=cap.centre))
             | {"run": run_id, "image": photo.id, "uid": cap.uid, "category": ids[cap.cap.category]}
             | {"visible": _seen(cap), "score": 1.0 if cap.score is None else cap.score}
-            | {"quality": cap.quality, "extra": cap.extra | ({"doubt": True} if doubted else {})}
+            | {"quality": cap.quality, "extra": cap.extra | said}
         )
 
     wanted = [cap.id for _, cap in new]

@@ -75,7 +75,7 @@ def import_paths(
             update=known_caps in (KnownCaps.update, KnownCaps.replace),
             progress=progress,
         )
-        if as_ == ImportAs.predictions:
+        if as_ != ImportAs.annotations:
             _keep_predictions(intake)
         _require_usable(intake, paths, strict=strict)
         compared = _compare(project, intake, progress) if as_ == ImportAs.annotations else None
@@ -92,6 +92,7 @@ def import_paths(
                 known_caps=known_caps,
                 link=link,
                 kept=numbers_taken_out(project),
+                by_second=as_ == ImportAs.second,
                 user=user,
             )
             return project.write(lambda connection: store(connection, parcel, copies))

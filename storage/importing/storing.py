@@ -51,6 +51,8 @@ class ImportReport(Struct, frozen=True, kw_only=True):
     """How many edits brought the project to what the files say."""
     run: int | None = None
     """The run that new predictions belong to."""
+    unscored: bool = False
+    """Whether no prediction carries a score: a person may have labelled what was taken for a model's."""
     polygons: int = 0
     """How many polygons of labelme there were, which may be taken in two ways."""
     boxes: int = 0
@@ -68,11 +70,13 @@ class Parcel(Struct, frozen=True, kw_only=True):
     sources: Sources
     intake: Intake
     compared: Sequence[Compared] | None
-    """Of annotations, what they are to the project's; None for predictions."""
+    """Of annotations, what they are to the project's; None for what becomes a run."""
     known_caps: KnownCaps
     link: bool
     """Photos stay where they are."""
     kept: KeptNumbers
+    by_second: bool
+    """Whether a second annotator labelled what becomes a run; else a model said it."""
     user: str
 
 
@@ -146,10 +150,17 @@ def _store_predictions(
     labelled = [Labelled(photo=photos[name], caps=caps) for name, caps in parcel.intake.caps.items()]
     if not labelled:
         return report
-    run = _run_of(connection, parcel.sources)
+    run = _run_of(connection, parcel.sources, by_second=parcel.by_second)
     categories = _categories(parcel)
     entered = enter_predictions(connection, labelled, categories=categories, kept=parcel.kept, run_id=run.id)
-    return structs.replace(report, predictions=entered.new, known=entered.known, run=run.id)
+    scored = any(cap.score is not None for item in labelled for cap in item.caps)
+    return structs.replace(
+        report,
+        predictions=entered.new,
+        known=entered.known,
+        run=run.id,
+        unscored=not parcel.by_second and not scored and entered.new + entered.known > 0,
+    )
 
 
 def _categories(parcel: Parcel) -> dict[str, FoundCategory]:
@@ -175,14 +186,14 @@ def _is_known(photo: Photo, photos: dict[str, Photo]) -> bool:
     return other is not None
 
 
-def _run_of(connection: Connection, sources: Sources) -> Run:
+def _run_of(connection: Connection, sources: Sources, *, by_second: bool) -> Run:
     """The run of imported predictions; the same files always belong to the same one."""
     names = [document.path.name for document in sources.documents]
     digests = sorted(document.sha256 for document in sources.documents)
     return add_run(
         connection,
         name=names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more",
-        kind="import",
+        kind="second" if by_second else "import",
         settings={"files": names[:100]},
         key=sha256("".join(digests).encode()).hexdigest(),
     )

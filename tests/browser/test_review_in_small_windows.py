@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -47,7 +48,7 @@ def project(tmp_path: Path) -> Path:
     document = {"images": images, "annotations": caps, "categories": [{"id": 1, "name": "mushroom"}]}
     (tmp_path / LONG).write_text(json.dumps(document))
     with open_project(path) as opened:
-        import_paths(opened, [tmp_path / LONG], as_=ImportAs.predictions)
+        import_paths(opened, [tmp_path / LONG], as_=ImportAs.second)
         with opened.read() as connection:
             runs = all_runs(connection)
         for run in runs:
@@ -66,9 +67,15 @@ def test_nothing_is_cut_and_nothing_is_to_be_scrolled_sideways(
         tab.page.get_by_text(folder, exact=True).first.click()
     choose(tab, "Figures by", "annotator")
     choose(tab, "First run", "instances.json")
+    choose(tab, "Second run", LONG)
     choose(tab, "Second annotator", LONG)
     for table in ("Groups of caps", "Two runs side by side", "Images of two annotators"):
         tab.page.get_by_role("table", name=table).wait_for()
     tab.page.get_by_role("link", name="Report of all images against").wait_for()
     assert tab.page.evaluate(CUT) == []
     assert tab.page.evaluate(SCROLLED_SIDEWAYS) == 0
+    for field in ("Second annotator", "Second run", "On the photo"):
+        chosen = tab.page.get_by_role("combobox", name=field, exact=True)
+        chosen.hover()
+        expect(chosen).to_have_attribute("title", LONG)
+        assert chosen.evaluate("field => getComputedStyle(field).textOverflow") == "ellipsis"

@@ -152,7 +152,9 @@ def test_the_report_is_of_the_run_that_was_chosen_for_the_photo(tab: Tab) -> Non
     assert marked_1 == marked_2
     assert predicted_1 != predicted_2
     assert both_1 != both_2
-    assert tab.page.request.get(urljoin(tab.page.url, "/review/report.html?run=99")).status == 404
+    nothing = ("report.html?run=99", "report.html?image=99", "report.html?image=one", "caps.csv?image=99")
+    for what in nothing:
+        assert tab.page.request.get(urljoin(tab.page.url, f"/review/{what}")).status == 404
 
 
 def test_a_run_that_later_ones_hide_is_exported(tab: Tab) -> None:

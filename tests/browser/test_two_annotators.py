@@ -36,7 +36,7 @@ def project(tmp_path: Path) -> Path:
     categories = [{"id": 1, "name": "mushroom"}]
     bens.write_text(json.dumps({"images": [image], "annotations": caps, "categories": categories}))
     with open_project(path) as opened:
-        import_paths(opened, [bens], as_=ImportAs.predictions)
+        import_paths(opened, [bens], as_=ImportAs.second)
     return path
 
 

@@ -24,7 +24,7 @@ DRAWINGS = {
         jobs  review
         caps  weights
         workers
-        protocol  addresses  settings  editor_commands  static_folder
+        protocol  addresses  settings  editor_commands  static_folder  how_many
     """,
     "storage": """
         exporting_splits

@@ -103,7 +103,7 @@
  * @typedef {Object} Run
  * @property {number} id
  * @property {string} name
- * @property {"import" | "simulated" | "network"} kind
+ * @property {"import" | "simulated" | "network" | "second"} kind
  * @property {string} made_at
  * @property {string | null} weights
  * @property {Record<string, unknown>} settings

@@ -30,7 +30,8 @@ export function decideOn(state, review, cap, carryOut) {
 
 /**
  * Has a cap be as the network said: its outline without a mark, the prediction itself, or no cap. A cap that was moved
- * so far that nothing matches it goes back to the prediction that it started from.
+ * so far that nothing matches it goes back to the prediction that it started from. Of a second annotator the mark is
+ * taken with the outline.
  *
  * @type {(state: EditorState, review: Review, cap: ComparedCap) => void}
  */
@@ -40,9 +41,10 @@ export function takePrediction(state, review, cap) {
   const said = cap.prediction ?? partner?.prediction;
   const shape = state.items.get(uid);
   if (!shape) return;
-  if (isPrediction(shape)) state.commit([changed(shape, shape)]);
+  const mark = review.second && said?.extra.marked ? said.whole : null;
+  if (isPrediction(shape)) state.commit([changed(shape, mark ? withCap(shape, { ...shape.cap, mark }) : shape)]);
   else if (!said) state.commit([changed(shape, { ...shape, deleted: true })]);
-  else state.commit([changed(shape, withCap(shape, { ...shape.cap, visible: said.visible, mark: null }))]);
+  else state.commit([changed(shape, withCap(shape, { ...shape.cap, visible: said.visible, mark }))]);
 }
 
 /** The prediction that a missed cap started from, where that is extra; and the other way round. @type {(state: EditorState, review: Review, cap: ComparedCap) => ComparedCap | null} */

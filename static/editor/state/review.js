@@ -41,6 +41,8 @@ export class Review {
   decided = new Map();
   /** The image that `caps` are of. */
   image = 0;
+  /** Whether a second annotator's caps stand for predictions. */
+  second = false;
 
   get on() {
     return this.#on;
@@ -62,11 +64,12 @@ export class Review {
     this.changed.emit();
   }
 
-  /** What the server has found. @type {(image: number, caps: ComparedCap[]) => void} */
-  take(image, caps) {
+  /** What the server has found. @type {(image: number, caps: ComparedCap[], second?: boolean) => void} */
+  take(image, caps, second = false) {
     if (image !== this.image) this.decided.clear();
     this.image = image;
     this.caps = caps;
+    this.second = second;
     this.changed.emit();
     for (const go of this.#waiting.splice(0)) go();
   }

@@ -1,6 +1,7 @@
 /**
  * Gives fields of viser's panel the names that stand beside them: viser writes labels, but not every field
- * has the id that they name, and the buttons that close its notes have none.
+ * has the id that they name, and the buttons that close its notes have none. What is chosen from a list is told in full
+ * where the pointer rests, as the field may be too narrow for it.
  *
  * @module
  */
@@ -23,4 +24,12 @@ export function nameFields() {
       }
     }
   });
+  document.addEventListener("pointerover", ({ target }) => {
+    if (isChoice(target)) put(target, "title", target.value);
+  });
+}
+
+/** Whether it shows what was chosen from a list of the panel. @type {(target: EventTarget | null) => target is HTMLInputElement} */
+function isChoice(target) {
+  return target instanceof HTMLInputElement && target.matches("[data-dock-scroll] [aria-haspopup=listbox]");
 }

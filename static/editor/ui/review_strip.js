@@ -24,9 +24,12 @@ export function reviewStripIn(host, state, review) {
   const counter = element("strong");
   const kind = element("span");
   const centres = lineOf("", COLOURS.selected);
-  const key = element("div", {}, lineOf("annotator’s", COLOURS.outline), lineOf("model’s", COLOURS.predicted, "5 3"), centres);
+  const other = lineOf("", COLOURS.predicted, "5 3");
+  const first = lineOf("", COLOURS.outline);
+  const key = element("div", {}, first, other, centres);
   const told = element("div", { attributes: { role: "status" } }, counter, kind);
-  const strip = element("div", { class: "fairyring-review" }, told, key, element("div", {}, ...keysOf(KEYS)));
+  const keys = element("div", {});
+  const strip = element("div", { class: "fairyring-review" }, told, key, keys);
   strip.dataset.fairyringChrome = "";
   host.append(strip);
   const update = () => {
@@ -37,6 +40,9 @@ export function reviewStripIn(host, state, review) {
     const cap = known ? review.selected(state) : null;
     counter.textContent = known ? countWords(new Standing(state, review)) : "Comparing…";
     kind.textContent = cap ? kindWords(state, review, cap) : "";
+    first.lastChild?.replaceWith(review.second ? "first annotator’s" : "annotator’s");
+    other.lastChild?.replaceWith(review.second ? "second annotator’s" : "model’s");
+    keys.replaceChildren(...keysOf(KEYS, review.second));
     centres.lastChild?.replaceWith(`between centres${review.times > 1 ? ` × ${review.times}` : ""}`);
   };
   review.changed.listen(update);
@@ -59,7 +65,7 @@ export function countWords({ at, done, total, left }) {
 export function kindWords(state, review, cap) {
   const { annotation, prediction, iou, cdr, floor } = cap;
   const isMoved = partnerOf(state, review, cap) !== null;
-  if (annotation && !prediction) return isMoved ? "missed: moved off its prediction" : "missed: the model has no such cap";
+  if (annotation && !prediction) return isMoved ? "missed: moved off its prediction" : `missed: the ${review.second ? "second annotator" : "model"} has no such cap`;
   if (!annotation && prediction) {
     if (isMoved) return "extra: its cap was moved away";
     return heirsIn(state.store).get(prediction.id)?.deleted ? "extra: turned down" : "extra: nobody has drawn it";
@@ -68,12 +74,13 @@ export function kindWords(state, review, cap) {
   return `${centres}, IoU ${iou?.toFixed(2) ?? "–"}`;
 }
 
-/** The keys of commands, each with what it does. @type {(names: string[]) => HTMLElement[]} */
-function keysOf(names) {
+/** The keys of commands, each with what it does. @type {(names: string[], second: boolean) => HTMLElement[]} */
+function keysOf(names, second) {
   const declared = DECLARED.groups.flatMap(({ commands }) => commands).filter(({ name }) => names.includes(name));
-  return declared.map(({ keys: [key = ""], label }) =>
-    element("span", {}, element("kbd", { text: key }), document.createTextNode(` ${label ?? ""}`)),
-  );
+  return declared.map(({ name, keys: [key = ""], label }) => {
+    const words = second && name === "take_models" ? "Second’s" : second && name === "take_annotators" ? "First’s" : (label ?? "");
+    return element("span", {}, element("kbd", { text: key }), document.createTextNode(` ${words}`));
+  });
 }
 
 /** Words after a piece of their line. @type {(words: string, colour: string, dash?: string) => HTMLElement} */

@@ -95,6 +95,25 @@ test("the model's of a cap that was moved too far is the prediction that it star
   }
 });
 
+test("of a second annotator the mark is taken with the outline, of a model never", () => {
+  const round = /** @type {const} */ ({ kind: "circle", cx: 5, cy: 5, r: 9 });
+  for (const second of [true, false]) {
+    const found = reviewed();
+    const [said] = [prediction(4, [NETWORKS[0]])];
+    const theirs = { ...said, whole: round, extra: { marked: true } };
+    const both = { annotation: "kept", prediction: theirs, iou: 0.9, cdr: null, floor: null };
+    found.review.take(1, [both], second);
+    takeModels(found, both);
+    assert.deepEqual(found.state.store.get("kept")?.cap.mark, second ? round : null);
+    const extra = { ...both, annotation: null, prediction: { ...theirs, id: 5 } };
+    found.review.take(1, [extra], second);
+    lookAt(found.state, "prediction:5");
+    takeModels(found, extra);
+    const drawn = found.state.store.all().find(({ cap }) => cap.prediction === 5);
+    assert.deepEqual(drawn?.cap.mark, second ? round : null);
+  }
+});
+
 test("the model's of a cap that no network saw is no cap", () => {
   const found = reviewed();
   found.state.store.apply([{ before: null, after: storedShape("drawn", capOf(triangle(900))) }]);

@@ -4,6 +4,7 @@ import sqlite3
 
 import pytest
 
+from fairyring.model.geometry.shapes import Circle, fit_of_shape
 from fairyring.storage.contents import load_predictions
 from fairyring.storage.image_history import list_change_sets
 from fairyring.storage.images import ImageFilter, get_image, list_ids
@@ -126,6 +127,17 @@ def predicted(project, *outlines):
         return [each.id for each in load_predictions(connection, 1)]
 
 
+def labelled_by(project, mark, *, kind):
+    """A triangle with this mark, in a run of its own."""
+
+    def say(connection):
+        made = add_run(connection, name="run", kind=kind)
+        said = NewPrediction(visible=TRIANGLE, score=1.0, fit=fit_of_shape(mark))
+        add_predictions(connection, run_id=made.id, image_id=1, predictions=[said])
+
+    project.write(say)
+
+
 def test_a_reviewer_who_takes_the_networks_outline_or_deletes_a_cap_still_approves(annotated, square):
     (number,) = predicted(annotated, TRIANGLE)
     one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE), user="rev")
@@ -133,6 +145,17 @@ def test_a_reviewer_who_takes_the_networks_outline_or_deletes_a_cap_still_approv
     one(annotated, "e4", annotation="c", cap=Cap(visible=square), user="ann")
     one(annotated, "e5", annotation="c", base=1, cap=None, user="rev")
     assert status(judge(annotated)) == "approved"
+
+
+def test_a_reviewer_who_takes_a_second_annotators_cap_with_its_mark_still_approves(annotated):
+    mark = Circle(70, 50, 12)
+    labelled_by(annotated, mark, kind="import")
+    one(annotated, "e2", base=1, cap=Cap(visible=TRIANGLE, mark=mark), user="rev")
+    assert "nobody else has looked" in reason(judge(annotated, "v1"))
+    labelled_by(annotated, Circle(70, 51, 12), kind="second")
+    assert "nobody else has looked" in reason(judge(annotated, "v2"))
+    labelled_by(annotated, mark, kind="second")
+    assert status(judge(annotated, "v3")) == "approved"
 
 
 def test_an_outline_of_the_network_that_had_to_be_repaired_is_still_the_networks(annotated):

@@ -64,7 +64,7 @@ def test_the_job_compares_what_is_stale_and_can_be_cancelled(project: Project) -
 
     with pytest.raises(CancelledError):
         compare_work(project)(cancel)
-    assert compare_work(project)(silent).message == "1 images compared."
+    assert compare_work(project)(silent).message == "1 image compared."
     assert compare_work(project)(silent).message == "Every image was up to date."
 
 
@@ -92,7 +92,7 @@ def test_an_edit_in_a_tab_brings_the_review_up_to_date(port: int, project: Proje
         left = tab.expect(Show).contents.predictions[0]
         tab.edit(new_cap(1, visible=left.visible, mark=Circle(left.centre[0] + 3.2, left.centre[1], 20)))
         until(lambda: ">2.00<" in tab.panel.html, "the worst cap")
-        until(lambda: 'data-fairyring-select="cap-1"' in tab.panel.html, "its close-up")
+        until(lambda: 'data-fairyring-select="cap-1"' in tab.panel.html, "its row of the review")
     with project.read() as connection:
         assert stored_comparison(connection, 1, 1).dx == pytest.approx(-3.2)
         assert list_comparisons(connection, 1).total == 1

@@ -71,3 +71,22 @@ def test_the_third_version_holds_what_both_agree_on_and_doubts_the_rest(
 def test_caps_without_an_id_of_their_own_are_refused(tmp_path: Path) -> None:
     twice = write(tmp_path / "twice.json", [square(1, 10.0), square(1, 50.0)])
     assert "id" in sentence(fairyring("agreement", twice, twice))
+
+
+def test_the_third_version_never_takes_the_place_of_the_two(
+    versions: tuple[Path, Path], tmp_path: Path
+) -> None:
+    before = [path.read_bytes() for path in versions]
+    link = tmp_path / "link.json"
+    link.symlink_to(versions[1])
+    for out in (versions[0], link):
+        told = fairyring("agreement", *versions, "--adjudicated", out)
+        assert told.exit_code == 2
+        assert "name another file" in told.stderr
+    assert [path.read_bytes() for path in versions] == before
+
+
+def test_a_file_that_is_not_there_is_named_alone(versions: tuple[Path, Path], tmp_path: Path) -> None:
+    told = sentence(fairyring("agreement", versions[0], tmp_path / "nobody.json"))
+    assert "nobody.json cannot be read" in told
+    assert versions[0].name not in told

@@ -48,7 +48,7 @@ def folder(tmp_path: Path, bens: Path) -> Path:
     others = write(tmp_path / "others.json", [square(1, 10.0)], photo="other.png")
     project = create_project(tmp_path / "project")
     import_paths(project, [tmp_path / "bed.png", tmp_path / "other.png", anns, others])
-    import_paths(project, [bens], as_=ImportAs.predictions)
+    import_paths(project, [bens], as_=ImportAs.second)
     project.close()
     return tmp_path / "project"
 
@@ -88,3 +88,23 @@ def test_what_has_no_photo_in_common_is_refused(folder: Path, tmp_path: Path) ->
     strange = write(tmp_path / "strange.json", [square(1, 10.0)], photo="elsewhere.png")
     assert "no image in common" in sentence(fairyring("review", folder, "--second", strange))
     assert "There is no run called nobody" in sentence(fairyring("review", folder, "--second", "nobody"))
+
+
+def test_labels_without_a_score_are_taken_for_predictions_and_the_other_way_is_told(
+    folder: Path, tmp_path: Path
+) -> None:
+    cals = write(tmp_path / "cal.json", [square(7, 10.0), square(8, 55.0)])
+    told = fairyring("import", folder, cals, "--as", "predictions")
+    assert told.exit_code == 0
+    assert "again with --as second" in told.stderr
+    assert latest(folder) == ["cal.json"]
+    again = fairyring("import", folder, cals, "--as", "second")
+    assert "--as second" not in again.stderr
+    assert "already there: 1 images, 2 shapes (2 the same, 0 changed; 0 gone)" in again.stdout
+    assert latest(folder) == []
+
+
+def latest(folder: Path) -> list[str]:
+    """The runs that images show."""
+    runs = json.loads(fairyring("runs", "list", folder, "--json").stdout)
+    return [run["name"] for run in runs if run["latest_of"]]

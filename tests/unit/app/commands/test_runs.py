@@ -13,7 +13,7 @@ from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap, Edit
-from tests.support.terminal import fairyring
+from tests.support.terminal import fairyring, sentence
 from tests.unit.storage.conftest import write_noise
 
 SQUARE = [10.0, 10.0, 30.0, 10.0, 30.0, 30.0, 10.0, 30.0]
@@ -102,3 +102,22 @@ def test_a_name_that_is_none_is_wrong_use(words: tuple[str, ...], reason: str) -
     assert told.exit_code == 2
     assert "1 to 200 printable characters" in told.stderr
     assert reason in told.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("runs", "compare", "{}", "old", "1"), "Both are old, which is one run"),
+        (("review", "{}", "--run", "2", "--against", "new"), "Both are new, which is one run"),
+        (("review", "{}", "--against", "new"), "Both are new, which is one run"),
+        (
+            ("review", "{}", "--run", " "),
+            "A run has a name or a number, and none was given. The latest are new",
+        ),
+        (("review", "{}", "--images", "zzz*"), "The project has no image called zzz*."),
+    ],
+)
+def test_what_cannot_be_compared_is_refused_in_a_sentence(
+    beds: Path, words: tuple[str, ...], reason: str
+) -> None:
+    assert reason in sentence(fairyring(*(word.format(beds) for word in words)))

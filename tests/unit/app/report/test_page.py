@@ -124,7 +124,7 @@ def test_bars_and_close_ups_name_their_caps_by_the_same_numbers(project: Project
     mark_both(project)
     html = page_of(project, review_of(project))
     assert re.findall(r'class="name">([^<]+)<', html) == ["cap 1", "cap 2"]
-    assert "bed_1.jpg, cap 1: CDR 1.500 %" in html
+    assert "bed_1.jpg, cap 1: CDR 1.500\u00a0%" in html
 
 
 def test_the_report_tells_reasons_and_comments_with_who_and_when(project: Project) -> None:

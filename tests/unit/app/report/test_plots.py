@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from itertools import pairwise
 
 import pytest
 
-from fairyring.app.report.plots import MOST_BARS, Bar, cdr_bars, round_numbers
+from fairyring.app.report.plots import MOST_BARS, SIDE, Bar, cdr_bars, round_numbers, shifts
 
 
 def bars(names: list[str]) -> str:
@@ -41,3 +42,25 @@ def test_short_names_lie_and_long_ones_stand_and_lose_their_middle() -> None:
 
 def test_of_more_bars_than_have_room_the_caption_says_how_many_there_are() -> None:
     assert f"The first {MOST_BARS} of {MOST_BARS + 1}." in bars(["bar"] * (MOST_BARS + 1))
+
+
+def test_the_ellipse_of_shifts_lies_within_its_frame() -> None:
+    # Two far ones among many: they widen the ellipse, and lie beyond the edges themselves.
+    html = shifts([(0.1 * nth, -0.05 * nth) for nth in range(100)] + [(60.0, 40.0), (55.0, -70.0)]).html
+    drawn = re.search(
+        r'<ellipse cx="([\d.]+)" cy="([\d.]+)" rx="([\d.]+)" ry="([\d.]+)"[^>]*rotate\(([-\d.]+)', html
+    )
+    assert drawn is not None
+    x, y, along, across, degrees = map(float, drawn.groups())
+    turn = math.radians(degrees)
+    wide = math.hypot(along * math.cos(turn), across * math.sin(turn))
+    tall = math.hypot(along * math.sin(turn), across * math.cos(turn))
+    assert wide <= min(x, SIDE - x)
+    assert tall <= min(y, SIDE - y)
+    assert "2 lie further out." in html
+
+
+def test_shifts_that_are_all_within_the_frame_and_one_that_is_not_are_told_as_such() -> None:
+    even = [(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)] * 250
+    assert "further out" not in shifts(even).html
+    assert " 1 lies further out." in shifts([*even, (9.0, 0.0)]).html

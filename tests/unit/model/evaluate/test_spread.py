@@ -29,7 +29,18 @@ def test_shifts_of_one_kind_alone_have_a_flat_one() -> None:
 
 
 def test_a_plot_reaches_all_of_a_few_points_and_most_of_many() -> None:
-    few = np.array([(1.0, 0.0), (0.0, -8.0), (0.5, 0.5)])
-    assert reach_of(few) == pytest.approx(8.8)
-    many = np.vstack([np.ones((99, 2)), [(100.0, 0.0)]])
-    assert reach_of(many) == pytest.approx(1.1)
+    even = np.array([(x, y) for x in (-4.0, 0.0, 4.0) for y in (-1.0, 1.0)] * 4)
+    few = np.vstack([even, [(0.0, -40.0)]])
+    # Its ellipse ends at 1.6 + 2.4477 · 8.06 = 21.3 px; the point lies beyond.
+    assert reach_of(few) == pytest.approx(44.0)
+    many = np.vstack([np.ones((990, 2)), [(12.0, 0.0)] * 10])
+    assert reach_of(many) < 12.0
+
+
+def test_a_plot_holds_the_whole_ellipse_also_where_points_lie_far_from_it() -> None:
+    far_ones = np.vstack([np.ones((99, 2)), [(100.0, 0.0)]])
+    slanted = np.random.default_rng(3).multivariate_normal((3.0, -1.0), [[9.0, 8.5], [8.5, 9.0]], 12)
+    for moves in (far_ones, slanted, np.array([(1.0, 2.0), (1.1, 2.0), (5.0, -3.0)])):
+        reach = reach_of(moves)
+        for half in ellipse_of_spread(moves):
+            assert np.abs(half).max() < reach
