@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import lru_cache
 from itertools import compress
 from pathlib import Path
@@ -14,6 +15,7 @@ from msgspec import Struct
 from fairyring.model import photo
 from fairyring.model.geometry.boxes import boxes_of_outlines, touching
 from fairyring.model.geometry.shapes import Outline
+from fairyring.model.processes import usable_cores
 
 if TYPE_CHECKING:
     from fairyring.model.predict.predictor import Predictor
@@ -40,13 +42,32 @@ class Asked(Struct, frozen=True, kw_only=True):
 
 def cap_found(asked: Asked) -> tuple[float, Outline] | None:
     """The score and the outline of the cap; None where the network sees none, or was to look only."""
-    predictor, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
+    # While a photo is looked at, somebody may have a cap in hand.
+    with _threads(max(1, usable_cores() - 1)):
+        predictor, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
     found: Detection | None = None
-    if asked.box is not None:
-        found = predictor.within(seen, asked.box, front=asked.front)
-    elif asked.points:
-        found = predictor.at(seen, asked.points, asked.wanted, front=asked.front)
+    # One cap is too little work to be shared: it takes one thread as long as two, and those that wait for work
+    # keep cores busy.
+    with _threads(1):
+        if asked.box is not None:
+            found = predictor.within(seen, asked.box, front=asked.front)
+        elif asked.points:
+            found = predictor.at(seen, asked.points, asked.wanted, front=asked.front)
     return None if found is None else (found.score, found.outline)
+
+
+@contextmanager
+def _threads(count: int) -> Iterator[None]:
+    """Has PyTorch compute with so many threads."""
+    # PyTorch is loaded by the worker when somebody points for the first time, and never by the server.
+    import torch
+
+    before = torch.get_num_threads()
+    torch.set_num_threads(count)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(before)
 
 
 def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> list[Outline]:
@@ -68,7 +89,6 @@ def _seen(path: Path, weights: Path, changed: int) -> tuple[Predictor, Seen]:
 
 @lru_cache(maxsize=1)
 def _predictor(weights: Path, _changed: int) -> Predictor:
-    # PyTorch is loaded by the worker when somebody points for the first time, and never by the server.
     from fairyring.model.device import device_of
     from fairyring.model.network.weights import load_weights
     from fairyring.model.predict.predictor import Predictor
