@@ -33,10 +33,21 @@ class ImageCaps:
         live = {uid: Seen(a.cap.visible, a.cap.told) for uid, a in self.annotations.items() if not a.deleted}
         return live | {key_of(p.id): Seen(p.visible) for p in self.predictions if p.id not in touched}
 
-    def visible_beside(self, uid: str, *, prediction: int | None) -> list[Seen]:
-        """What is visible of all caps but this one and the prediction it started from."""
+    def visible_beside(self, uid: str, *, prediction: int | None) -> tuple[Seen, ...]:
+        """What is visible of all caps but this one and the prediction it started from.
+
+        Asked for again, as it is while a cap is dragged, it is the very same tuple.
+        """
         own = (uid, key_of(prediction))
-        return [seen for key, seen in self.visible.items() if key not in own]
+        if own not in self._beside:
+            self._beside.clear()
+            self._beside[own] = tuple(seen for key, seen in self.visible.items() if key not in own)
+        return self._beside[own]
+
+    @cached_property
+    def _beside(self) -> dict[tuple[str, str], tuple[Seen, ...]]:
+        """What was last asked for."""
+        return {}
 
     @cached_property
     def _prediction(self) -> dict[int, Prediction]:

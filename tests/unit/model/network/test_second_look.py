@@ -116,7 +116,10 @@ def test_few_caps_are_judged_as_all_of_a_bed_are() -> None:
     # A hundred caps have more points to sample than a map has pixels, one has fewer than a large map.
     network, many = look(), windows(1)
     large = PointMaps(
-        fine=torch.randn(1, 32, 40, 60), semantic=torch.randn(1, 32, 10, 15), detail=None, feature=torch.randn(1)
+        fine=torch.randn(1, 32, 40, 60),
+        semantic=torch.randn(1, 32, 10, 15),
+        detail=None,
+        feature=torch.randn(1),
     )
     alone = network(large, many)
     crowd = network(large, Windows(*(part.repeat_interleave(100, dim=0) for part in many)))
