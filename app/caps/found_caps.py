@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from msgspec import Struct
 
+from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.model import photo
-from fairyring.model.geometry.boxes import boxes_of_outlines, touching
+from fairyring.model.geometry.boxes import touching
 from fairyring.model.geometry.shapes import Outline
 from fairyring.model.processes import usable_cores
 
@@ -46,8 +47,7 @@ def cap_found(asked: Asked) -> tuple[float, Outline] | None:
     with _threads(max(1, usable_cores() - 1)):
         predictor, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
     found: Detection | None = None
-    # One cap is too little work to be shared: it takes one thread as long as two, and those that wait for work
-    # keep cores busy.
+    # One cap is too little work to share: threads that wait for some keep cores busy.
     with _threads(1):
         if asked.box is not None:
             found = predictor.within(seen, asked.box, front=asked.front)
@@ -70,12 +70,12 @@ def _threads(count: int) -> Iterator[None]:
         torch.set_num_threads(before)
 
 
-def near(outlines: Sequence[Outline], places: Sequence[tuple[float, float]]) -> list[Outline]:
-    """Those whose box is near to one of the places."""
+def near(caps: ImageCaps, places: Sequence[tuple[float, float]], *, besides: str | None) -> list[Outline]:
+    """What is visible of the caps whose box is near to one of the places, but of the cap ``besides``."""
     points = np.reshape(np.array(places, np.float64), (-1, 2))
     around = np.concatenate([points - NEAR_PX, points + NEAR_PX], axis=1)
-    meeting = np.asarray(touching(boxes_of_outlines(outlines), around).any(axis=1))
-    return list(compress(outlines, meeting.tolist()))
+    meeting = touching(caps.boxes, around).any(axis=1).tolist()
+    return [seen.outline for uid, seen in compress(caps.visible.items(), meeting) if uid != besides]
 
 
 @lru_cache(maxsize=PHOTOS)
