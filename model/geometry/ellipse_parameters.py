@@ -45,6 +45,11 @@ class LikelyEllipse(Struct, frozen=True, kw_only=True):
             parameters=(x * float(by[0]), y * float(by[1]), grown, u, v), covariance=self.covariance
         )
 
+    def moved(self, dx: float, dy: float) -> LikelyEllipse:
+        """The same so many pixels further right and down."""
+        x, y, *shape = self.parameters
+        return LikelyEllipse(parameters=(x + dx, y + dy, *shape), covariance=self.covariance)
+
 
 def parameters_of(shape: Shape) -> Parameters:
     """The five numbers of a circle or an ellipse."""
