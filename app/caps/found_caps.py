@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
+from numpy.typing import NDArray
 
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.model import photo
@@ -77,8 +78,8 @@ def near(caps: ImageCaps, places: Sequence[tuple[float, float]], *, besides: str
     """What is visible of the caps whose box is near to one of the places, but of the cap ``besides``."""
     points = np.reshape(np.array(places, np.float64), (-1, 2))
     around = np.concatenate([points - NEAR_PX, points + NEAR_PX], axis=1)
-    meeting = touching(caps.boxes, around).any(axis=1).tolist()
-    return [seen.outline for uid, seen in compress(caps.visible.items(), meeting) if uid != besides]
+    meeting: NDArray[np.bool_] = np.logical_or.reduce(touching(caps.boxes, around), axis=1)
+    return [seen.outline for uid, seen in compress(caps.visible.items(), meeting.tolist()) if uid != besides]
 
 
 @lru_cache(maxsize=PHOTOS)

@@ -47,8 +47,8 @@ class LikelyEllipse(Struct, frozen=True, kw_only=True):
 
     def moved(self, dx: float, dy: float) -> LikelyEllipse:
         """The same so many pixels further right and down."""
-        x, y, *shape = self.parameters
-        return LikelyEllipse(parameters=(x + dx, y + dy, *shape), covariance=self.covariance)
+        x, y, log_r, u, v = self.parameters
+        return LikelyEllipse(parameters=(x + dx, y + dy, log_r, u, v), covariance=self.covariance)
 
 
 def parameters_of(shape: Shape) -> Parameters:

@@ -78,4 +78,5 @@ def _diameter(found: Detection) -> float:
 
 
 def _moved(outline: Outline, dx: float, dy: float) -> Outline:
-    return [(np.reshape(part, (-1, 2)) + (dx, dy)).ravel().tolist() for part in outline]
+    by = np.array([dx, dy])
+    return [(np.reshape(part, (-1, 2)) + by).ravel().tolist() for part in outline]

@@ -63,7 +63,7 @@ def test_a_large_cap_is_answered_as_ever(predictor: Predictor, photo: Pixels, se
 
 
 def test_what_lies_in_front_of_a_bud_is_cut_off(predictor: Predictor, photo: Pixels, seen: Seen) -> None:
-    x, y, r = BUD
+    x, y, _ = BUD
     front = [[[x + 2, y - 20, x + 40, y - 20, x + 40, y + 20, x + 2, y + 20]]]
     found = cap_at_points(predictor, photo, seen, [(x - 2, y)], front=front)
     assert found is not None
