@@ -9,6 +9,7 @@ from threading import Lock
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from fairyring.model.contour.fitted_image import fitted_image, within_reach
 from fairyring.model.contour.priors import DEFAULT
@@ -62,6 +63,17 @@ class _Known:
     """None until it is first needed."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Crowd:
+    """What was visible when something was last asked."""
+
+    seen: tuple[Seen, ...] | None
+    """None where it may have changed since."""
+    known: Sequence[_Known]
+    boxes: NDArray[np.float64]
+    """(n, 4)."""
+
+
 class Fitting:
     """Reconstructs the caps of one image, and remembers what the next question will need again.
 
@@ -74,6 +86,7 @@ class Fitting:
         self.likely = likely
         self._image = image
         self._outlines: dict[tuple[int, int], _Known] = {}
+        self._crowd: _Crowd | None = None
         self._measured = statistics is not None
         self._latest = fitted_image([], width=image.width, height=image.height, statistics=statistics)
         self._lock = Lock()
@@ -84,24 +97,37 @@ class Fitting:
         return asdict(self._latest.statistics)
 
     def reconstructions(self, wanted: Sequence[Seen], *, visible: Collection[Seen]) -> list[Reconstruction]:
-        """Reconstructs some outlines among all those ``visible`` in the image; all were checked before."""
+        """Reconstructs some outlines among all those ``visible`` in the image; all were checked before.
+
+        Those wanted may be among the visible ones or not. Of a tuple that was visible the last time, too,
+        nothing is looked up again: of two thousand caps that takes as long as the fit of one.
+        """
         with self._lock:
-            known = [self._known(seen) for seen in visible]
-            near = self._near(wanted, known) if self._measured else [True] * len(known)
+            if self._crowd is None or self._crowd.seen is not visible:
+                self._crowd = self._crowd_of(visible)
+            crowd, own = self._crowd.known, [self._known(seen) for seen in wanted]
+            near = self._near(own, self._crowd.boxes) if self._measured else [True] * len(crowd)
             # What was near once stays: it costs nothing, and may be near again.
-            shown = [each for each, is_near in zip(known, near, strict=True) if is_near or each.silhouette]
-            self._latest = self._latest.with_caps([self._silhouette(each) for each in shown])
+            shown = [each for each, is_near in zip(crowd, near, strict=True) if is_near or each.silhouette]
+            self._latest = self._latest.with_caps([self._silhouette(each) for each in (*shown, *own)])
             self._measured = True
-            found = self._latest.reconstructions([self._silhouette(self._known(seen)) for seen in wanted])
-            if len(self._outlines) > len(known) + MOST_SPARE:
-                self._outlines = {each.seen.key: each for each in known}
+            found = self._latest.reconstructions([self._silhouette(each) for each in own])
+            if len(self._outlines) > len(crowd) + len(own) + MOST_SPARE:
+                self._outlines = {each.seen.key: each for each in (*crowd, *own)}
             return found
 
-    def _near(self, wanted: Sequence[Seen], known: Sequence[_Known]) -> list[bool]:
-        keys = {seen.key for seen in wanted}
-        is_wanted = np.array([each.seen.key in keys for each in known], np.bool_)
+    def _crowd_of(self, visible: Collection[Seen]) -> _Crowd:
+        known = [self._known(seen) for seen in visible]
         boxes = np.array([each.box for each in known], np.float64).reshape(-1, 4)
-        return within_reach(boxes, is_wanted).tolist()
+        # A list may hold others the next time.
+        return _Crowd(visible if isinstance(visible, tuple) else None, known, boxes)
+
+    @staticmethod
+    def _near(wanted: Sequence[_Known], boxes: NDArray[np.float64]) -> list[bool]:
+        """Of each box of a crowd (n, 4), whether its cap can matter to those wanted."""
+        own = np.array([each.box for each in wanted], np.float64).reshape(-1, 4)
+        is_wanted = np.arange(len(boxes) + len(own)) >= len(boxes)
+        return within_reach(np.concatenate([boxes, own]), is_wanted)[: len(boxes)].tolist()
 
     def _known(self, seen: Seen) -> _Known:
         known = self._outlines.get(seen.key)

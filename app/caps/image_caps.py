@@ -6,7 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fairyring.app.caps.fitting import Fitting, Seen, known_statistics, likely_by_outline
+from fairyring.model.geometry.boxes import boxes_of_outlines
 from fairyring.model.geometry.outline_checks import check_outline
 from fairyring.model.geometry.told_arcs import ToldArc, check_told_arcs
 from fairyring.storage.records import Annotation, Cap, Image, ImageContents, Outline, Prediction
@@ -33,10 +37,26 @@ class ImageCaps:
         live = {uid: Seen(a.cap.visible, a.cap.told) for uid, a in self.annotations.items() if not a.deleted}
         return live | {key_of(p.id): Seen(p.visible) for p in self.predictions if p.id not in touched}
 
-    def visible_beside(self, uid: str, *, prediction: int | None) -> list[Seen]:
-        """What is visible of all caps but this one and the prediction it started from."""
+    @cached_property
+    def boxes(self) -> NDArray[np.float64]:
+        """(n, 4), the boxes of all that is visible, in its order."""
+        return boxes_of_outlines([seen.outline for seen in self.visible.values()])
+
+    def visible_beside(self, uid: str, *, prediction: int | None) -> tuple[Seen, ...]:
+        """What is visible of all caps but this one and the prediction it started from.
+
+        Asked for again, as it is while a cap is dragged, it is the very same tuple.
+        """
         own = (uid, key_of(prediction))
-        return [seen for key, seen in self.visible.items() if key not in own]
+        if own not in self._beside:
+            self._beside.clear()
+            self._beside[own] = tuple(seen for key, seen in self.visible.items() if key not in own)
+        return self._beside[own]
+
+    @cached_property
+    def _beside(self) -> dict[tuple[str, str], tuple[Seen, ...]]:
+        """What was last asked for."""
+        return {}
 
     @cached_property
     def _prediction(self) -> dict[int, Prediction]:

@@ -48,7 +48,7 @@ def reconstruction_of(uid: str, cap: Cap, caps: ImageCaps) -> Reconstruction:
         seen = Seen(outline, caps.checked_arcs(uid, cap, outline))
     except GeometryError as error:
         return Reconstruction(fit=Fit(refusal=str(error)))
-    visible = [*caps.visible_beside(uid, prediction=cap.prediction), seen]
+    visible = caps.visible_beside(uid, prediction=cap.prediction)
     (found,) = caps.fitting.reconstructions([seen], visible=visible)
     stored = _stored(uid, seen, caps)
     return found if stored is None else _as_stored(found, stored)

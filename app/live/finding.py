@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 import logging
 
-import anyio.to_thread
-
 from fairyring.app.caps.found_caps import Asked, cap_found, near
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.live.session import Session
@@ -73,9 +71,9 @@ class Finding:
         caps = self._session.caps
         if caps is None or caps.image.id != request.image:
             return None
-        # All in one thread: who rests with the pointer waits for every change of threads.
-        asked = await anyio.to_thread.run_sync(self._asked_of, request, caps)
-        answer = self._workspace.crew.network.ask(lambda: (cap_found, (asked,)), urgency=URGENT)
+        # In the worker's own thread: who rests with the pointer waits for every change of threads.
+        network = self._workspace.crew.network
+        answer = network.ask(lambda: (cap_found, (self._asked_of(request, caps),)), urgency=URGENT)
         waited_for = asyncio.wrap_future(answer)
         self._asked = request, waited_for
         try:
@@ -87,10 +85,6 @@ class Finding:
     def _asked_of(self, request: FindCap, caps: ImageCaps) -> Asked:
         """What the worker needs to know. For a thread."""
         project = self._workspace.project
-        live = [a for a in caps.annotations.values() if a.cap.visible and not a.deleted]
-        others = [a.cap.visible for a in live if a.uid != request.besides]
-        taken = {a.cap.prediction for a in caps.annotations.values()}
-        others += [p.visible for p in caps.predictions if p.id not in taken]
         box = request.box
         places = request.points or ([((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)] if box else [])
         return Asked(
@@ -99,5 +93,5 @@ class Finding:
             points=request.points,
             wanted=request.wanted,
             box=box,
-            front=near(others, places),
+            front=near(caps, places, besides=request.besides),
         )

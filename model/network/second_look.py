@@ -100,8 +100,8 @@ class SecondLook(nn.Module):
         points = _points_in(windows.places)
         owners = windows.owners.repeat_interleave(points.shape[1])
         around = [
-            self._sampled(self.fine(maps.fine), owners, points, stride=self.stride),
-            self._sampled(self.semantic(maps.semantic), owners, points, stride=4 * self.stride),
+            self._sampled(self.fine, maps.fine, owners, points, stride=self.stride),
+            self._sampled(self.semantic, maps.semantic, owners, points, stride=4 * self.stride),
         ]
         seen = self.cap(F.relu(torch.cat([self.photo(windows.layers), *around], dim=1)))
         odds = torch.logit(windows.scores, eps=1e-4) / MOST_ODDS
@@ -112,10 +112,17 @@ class SecondLook(nn.Module):
         return Said(self.quality(x)[:, 0], self.mean(x), _triangle(self.root(x)))
 
     @staticmethod
-    def _sampled(maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) -> Tensor:
-        """(n, channels, SIDE / 2, SIDE / 2) of maps (B, channels, h, w) at points (n, (SIDE / 2)², 2)."""
-        values = sample_maps(maps, owners, points.reshape(-1, 2), stride=stride)
-        return values.reshape(len(points), SIDE // 2, SIDE // 2, -1).permute(0, 3, 1, 2)
+    def _sampled(layer: nn.Conv2d, maps: Tensor, owners: Tensor, points: Tensor, *, stride: float) -> Tensor:
+        """(n, width, SIDE / 2, SIDE / 2), what a layer of 1 × 1 makes of maps (B, channels, h, w), at points
+        (n, (SIDE / 2)², 2).
+
+        The weights of a sample sum to 1, so it comes to the same whether samples are taken before the layer
+        or after it; whichever leaves it less to do.
+        """
+        few = owners.numel() < maps.shape[0] * maps.shape[2] * maps.shape[3]
+        values = sample_maps(maps if few else layer(maps), owners, points.reshape(-1, 2), stride=stride)
+        values = values.reshape(len(points), SIDE // 2, SIDE // 2, -1).permute(0, 3, 1, 2)
+        return layer(values) if few else values
 
     def calibrated_quality(self, said: Said) -> Tensor:
         """(n,), the expected IoU, 0 to 1."""

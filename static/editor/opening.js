@@ -97,10 +97,16 @@ export class Opening {
 
   /** @type {(asked: number, ahead: string[]) => void} */
   #drawn(asked, ahead) {
-    const { photos, frame, look } = this.#parts;
+    const { photos, frame } = this.#parts;
     frame.log({ event: asked, drawn: performance.now(), draw_ms: 0, kind: "switch" });
     photos.prefetch(ahead);
+    this.#lookSoon();
+  }
+
+  /** The network looks at the photo, but not while a cap is in hand: it would keep the fits of that waiting. */
+  #lookSoon() {
+    const { state, look } = this.#parts;
     clearTimeout(this.#stays);
-    this.#stays = setTimeout(look, STAYS_MS);
+    this.#stays = setTimeout(() => (state.drafts.all.length ? this.#lookSoon() : look()), STAYS_MS);
   }
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -145,5 +146,20 @@ class TestImportedCaps:
         tab.press("Enter", "Control+Enter")
         tab.saved()
         assert len(live_caps(project)) == 3, "it is stored all the same"
+        question = tab.page.get_by_role("alertdialog", name="Question")
+        assert "one outline of fewer points" in question.inner_text()
+
+    def test_points_of_the_cap_in_front_are_not_counted_as_drawn(self, tab: Tab, project: Path) -> None:
+        known = {*live_caps(project)}
+        tab.press("Space", "Space", "Space", "w")
+        for angle in range(0, 360, 30):
+            x, y = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+            tab.click((430 + 60 * x, 200 + 60 * y))
+        tab.press("Enter", "Control+Enter")
+        tab.saved()
+        [newest] = {*live_caps(project)} - known
+        cap = kept_cap(project, newest)
+        assert cap is not None
+        assert len(cap["visible"][0]) / 2 > 20, "with the rim of the cap in front they are enough"
         question = tab.page.get_by_role("alertdialog", name="Question")
         assert "one outline of fewer points" in question.inner_text()

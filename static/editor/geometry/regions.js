@@ -101,7 +101,7 @@ function outlineOf(paths) {
 }
 
 /** The area, below zero where the ring runs the other way. @type {(ring: number[]) => number} */
-function turned(ring) {
+export function turned(ring) {
   let twice = 0;
   for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2) {
     twice += ring[j] * ring[i + 1] - ring[i] * ring[j + 1];

@@ -35,12 +35,19 @@ const STUCK = {
  * @param {(text: string, level?: "info" | "warning") => void} how.say
  */
 export function travelIn(state, { open, say }) {
+  /** The one cap that was selected last: what was done to its neighbours on the way was done to it. @type {string | null} */
+  let inHand = null;
+  state.selection.changed.listen((_before, now) => {
+    if (now.length) inHand = now.length === 1 ? now[0] : null;
+  });
   return {
     /** @type {(travelled: Travelled) => void} */
     travelled({ image, changes, stayed }) {
       if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
       if (image !== state.image?.id) return open(image, null);
-      const uids = changes.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
+      const own = changes.filter(({ before, after }) => [before, after].some((shape) => shape && isOf(shape, inHand)));
+      const seen = own.length ? own : changes;
+      const uids = seen.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
       const known = uids.filter((uid) => state.items.get(uid));
       if (changes.length) state.select(known.length <= MOST_SELECTED ? known : []);
       // The view stays where it is: whoever works there may not want to be taken away.
@@ -49,6 +56,11 @@ export function travelIn(state, { open, say }) {
     /** @type {(why: keyof typeof STUCK, way: Way) => void} */
     stuck: (why, way) => say(STUCK[why][way], "warning"),
   };
+}
+
+/** Whether it is this one, or the annotation of this prediction. @type {(shape: Shape, uid: string | null) => boolean} */
+function isOf({ uid, cap }, other) {
+  return uid === other || (cap.prediction !== null && uidOfPrediction(cap.prediction) === other);
 }
 
 /**

@@ -4,6 +4,7 @@
  * @module
  */
 
+import { boundsOfPoints } from "../../geometry/bounds.js";
 import { isCoarse } from "../../geometry/points_needed.js";
 import { isPrediction } from "../../geometry/shapes.js";
 import { changed } from "../../state/changes.js";
@@ -63,5 +64,7 @@ function countsOf({ items }, name) {
   const caps = items.all.filter((shape) => !isPrediction(shape));
   const open = items.all.length - caps.length;
   const unchecked = caps.filter(({ checked, cap }) => !checked && !cap.ignored).length;
-  return { name, caps: caps.length, open, unchecked, coarse: caps.filter((shape) => shape.checked && isCoarse(shape)).length };
+  const drawn = caps.filter(({ checked, cap }) => checked && cap.visible.length);
+  const coarse = drawn.filter((shape) => isCoarse(shape, items.near(boundsOfPoints(shape.cap.visible.flat()))));
+  return { name, caps: caps.length, open, unchecked, coarse: coarse.length };
 }

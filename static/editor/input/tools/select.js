@@ -5,37 +5,25 @@
  * @module
  */
 
-import { hundredths, insideCap } from "../../geometry/caps.js";
-import { HANDLE_GAP_PX, handlesAreApart, movedHandle, nearestHandle } from "../../geometry/handles.js";
+import { hundredths } from "../../geometry/caps.js";
+import { HANDLE_GAP_PX, handlesAreApart, movedHandle } from "../../geometry/handles.js";
 import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
-import { insertedVertices, mergedVertices, nearestEdges } from "../../geometry/vertices.js";
 import { toImage } from "../../geometry/view.js";
 import { drawBand, inBand } from "./band.js";
 import { Clicks } from "./clicks.js";
-import { CLICK_PX, EDGE_PX, GRAB_PX, apart } from "./tool.js";
+import { drop, edgeAt, gripAt, handleAt, hasLost, pixels } from "./grip.js";
+import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
 import { VertexRemoval } from "./vertex_removal.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Point} Point */
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
+/** @typedef {import("./grip.js").Grip} Grip */
 /** @typedef {import("./stroke.js").StrokeTool} StrokeTool */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
-
-/** How far along the outline, in CSS pixels, a dragged vertex pulls its neighbours. */
-const PULL_PX = 16;
-
-/**
- * What the press has taken hold of.
- *
- * @typedef {{kind: "handle", shape: Shape, handle: Handle, pull: number}
- *   | {kind: "shape", shapes: Shape[]}
- *   | {kind: "view"}
- *   | {kind: "rim"}
- *   | {kind: "band", band: import("./band.js").Band}} Grip
- */
 
 /** @implements {Tool} */
 export class SelectTool {
@@ -82,13 +70,13 @@ export class SelectTool {
       return this.#rim.hover(press);
     }
     const { selection, sole } = state;
-    const handle = sole && this.#handleAt(sole, press);
+    const handle = sole && handleAt(state, sole, press.image);
     this.#under = handle;
     if (!same(handle, selection.handle) && (handle || !this.#keepsActive)) {
       selection.activate(handle);
       this.#keepsActive = false;
     }
-    const item = handle ? null : state.at(press.image, this.#pixels(EDGE_PX));
+    const item = handle ? null : state.at(press.image, pixels(state, EDGE_PX));
     selection.hover(item && !selection.has(item.uid) ? item.uid : null);
     this.cursor = this.#cursorFor(press, handle, item);
   }
@@ -97,24 +85,9 @@ export class SelectTool {
   #cursorFor(press, handle, item) {
     if (handle) return handle.kind === "centre" ? "move" : "crosshair";
     const { selection, sole } = this.#state;
-    if (sole && this.#edgeAt(sole, press)) return "copy";
+    if (sole && edgeAt(this.#state, sole, press.image)) return "copy";
     if (item && selection.has(item.uid)) return "move";
     return item ? "pointer" : "default";
-  }
-
-  /** So many CSS pixels in pixels of the image. @type {(css: number) => number} */
-  #pixels(css) {
-    return css / this.#state.viewport.view.scale;
-  }
-
-  /** @type {(shape: Shape, press: Press) => Handle | null} */
-  #handleAt(shape, press) {
-    return nearestHandle(shape.cap, press.image, this.#pixels(GRAB_PX));
-  }
-
-  /** @type {(shape: Shape, press: Press) => ReturnType<typeof nearestEdges>} */
-  #edgeAt(shape, press) {
-    return nearestEdges(shape.cap, press.image, this.#pixels(EDGE_PX));
   }
 
   /** @type {(press: Press) => void} */
@@ -124,28 +97,8 @@ export class SelectTool {
     this.#start = press;
     this.#last = press.screen;
     this.#moved = false;
-    this.#grip = this.#gripAt(press);
-  }
-
-  /** @type {(press: Press) => Grip} */
-  #gripAt(press) {
-    const { selected, sole } = this.#state;
-    if (press.shift) return { kind: "band", band: { from: press.image, to: press.image } };
-    if (press.ctrl) {
-      this.#rim.down(press);
-      return { kind: "rim" };
-    }
-    if (sole) {
-      const handle = this.#handleAt(sole, press);
-      if (handle) return { kind: "handle", shape: sole, handle, pull: this.#pixels(PULL_PX) };
-      const edge = this.#edgeAt(sole, press);
-      if (edge) {
-        const { cap, vertices } = insertedVertices(sole.cap, edge.edges, edge.foot);
-        return { kind: "handle", shape: { ...sole, cap }, handle: { kind: "vertex", vertices }, pull: 0 };
-      }
-    }
-    const inside = selected.some((shape) => insideCap(shape.cap, ...press.image));
-    return inside ? { kind: "shape", shapes: selected } : { kind: "view" };
+    this.#grip = gripAt(this.#state, press);
+    if (this.#grip.kind === "rim") this.#rim.down(press);
   }
 
   /** @type {(press: Press) => void} */
@@ -155,7 +108,7 @@ export class SelectTool {
     if (!start || !grip) return;
     this.#at = press.screen;
     if (grip.kind === "rim") return this.#rim.drag(press);
-    if (this.#moved && this.#hasLost(grip)) {
+    if (this.#moved && hasLost(this.#state, grip)) {
       this.#grip = null;
       return;
     }
@@ -172,17 +125,6 @@ export class SelectTool {
     this.#last = press.screen;
   }
 
-  /**
-   * Whether something else, a key, has committed or taken back what is being dragged.
-   *
-   * @type {(grip: Grip) => boolean}
-   */
-  #hasLost(grip) {
-    if (grip.kind !== "handle" && grip.kind !== "shape") return false;
-    const shapes = grip.kind === "handle" ? [grip.shape] : grip.shapes;
-    return !shapes.every(({ uid }) => this.#state.drafts.has(uid));
-  }
-
   /** @type {(grip: Grip & {kind: "handle"}, dx: number, dy: number, alone: boolean) => void} */
   #dragHandle({ shape, handle, pull }, dx, dy, alone) {
     const from = this.#start?.image ?? [0, 0];
@@ -190,19 +132,6 @@ export class SelectTool {
     this.#keepsActive = true;
     const cap = movedHandle(shape.cap, handle, { dx, dy, from, pull: alone ? 0 : pull });
     this.#state.propose([withCap(shape, cap)]);
-  }
-
-  /** A vertex that is put upon its neighbour becomes one with it, where each has a handle. @type {(handle: Handle) => void} */
-  #dropHandle(handle) {
-    const { sole } = this.#state;
-    if (sole && handle.kind === "vertex" && handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX))) {
-      const cap = mergedVertices(sole.cap, handle.vertices, this.#pixels(CLICK_PX));
-      if (cap.visible.flat().length < sole.cap.visible.flat().length) {
-        this.#state.selection.activate(null);
-        this.#state.propose([withCap(sole, cap)]);
-      }
-    }
-    this.#state.commitDrafts();
   }
 
   /** @type {(grip: Grip & {kind: "band"}, press: Press) => void} */
@@ -219,7 +148,7 @@ export class SelectTool {
     if (grip.kind === "rim") this.#rim.up(press);
     else if (this.#moved) {
       if (grip.kind === "band") state.select([...new Set([...state.selection.uids, ...inBand(state, grip.band)])]);
-      else if (grip.kind === "handle") this.#dropHandle(grip.handle);
+      else if (grip.kind === "handle") drop(state, grip.handle);
       else this.#state.commitDrafts();
     } else if (grip.kind === "handle" && press.alt) {
       this.#removeVertex(grip.handle);
@@ -249,7 +178,7 @@ export class SelectTool {
     const { sole } = this.#state;
     if (this.#grip) return true;
     if (!sole) return false;
-    const apart = handlesAreApart(sole.cap, this.#pixels(HANDLE_GAP_PX));
+    const apart = handlesAreApart(sole.cap, pixels(this.#state, HANDLE_GAP_PX));
     return (apart && this.#removeVertex(this.#under)) || this.#removal.keepsCap();
   }
 
@@ -258,7 +187,7 @@ export class SelectTool {
     if (!this.#removal.remove(handle, this.#at)) return false;
     const { sole, viewport } = this.#state;
     const here = toImage(viewport.view, ...this.#at);
-    this.#under = sole && nearestHandle(sole.cap, here, this.#pixels(GRAB_PX));
+    this.#under = sole && handleAt(this.#state, sole, here);
     return true;
   }
 

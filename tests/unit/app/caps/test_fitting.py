@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from fairyring.app.bench.crowd import crowded_outlines
+from fairyring.app.caps import fitting as fitting_module
 from fairyring.app.caps.fitting import Fitting, Likely, Seen, known_statistics, likely_by_outline
 from fairyring.model.contour import fitted_image, together
+from fairyring.model.geometry.boxes import box_of_outline
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.geometry.shapes import Outline
 from fairyring.model.geometry.told_arcs import ToldArc
@@ -48,6 +50,23 @@ def test_a_dragged_cap_is_fitted_as_in_an_image_made_anew(caps: list[Seen]) -> N
     assert [r.fit for r in kept.reconstructions(visible, visible=visible)] == [
         r.fit for r in fitting().reconstructions(visible, visible=visible)
     ]
+
+
+def test_a_dragged_cap_among_the_same_others_is_all_that_is_looked_up(
+    caps: list[Seen], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept, others = fitting(), tuple(caps[1:])
+    kept.reconstructions([caps[0]], visible=others)
+    boxed: list[Outline] = []
+    monkeypatch.setattr(
+        fitting_module, "box_of_outline", lambda outline: boxed.append(outline) or box_of_outline(outline)
+    )
+    first = caps[0].outline[0]
+    moved = Seen([[first[0] + 3, *first[1:]]])
+    (dragged,) = kept.reconstructions([moved], visible=others)
+    assert boxed == [moved.outline]
+    (anew,) = fitting().reconstructions([moved], visible=[moved, *others])
+    assert dragged.fit == anew.fit
 
 
 def test_statistics_are_measured_on_all_that_is_visible_at_first(caps: list[Seen]) -> None:

@@ -8,7 +8,9 @@ import cv2
 import numpy as np
 
 from fairyring.app.caps.found_caps import Asked, cap_found, near
+from fairyring.app.caps.image_caps import caps_of
 from fairyring.model.predict.shipped import SHIPPED
+from fairyring.storage.records import Annotation, Cap, Image, ImageContents
 
 
 def square(x: float, y: float, side: float = 20.0) -> list[list[float]]:
@@ -17,9 +19,15 @@ def square(x: float, y: float, side: float = 20.0) -> list[list[float]]:
 
 def test_only_caps_near_to_what_is_pointed_at_may_hide_any_of_it() -> None:
     close, far = square(100, 100), square(900, 100)
-    assert near([close, far], [(150.0, 150.0)]) == [close]
-    assert near([close, far], [(150.0, 150.0), (880.0, 90.0)]) == [close, far]
-    assert near([close, far], []) == []
+    image = Image(id=1, file_name="a.jpg", path="a.jpg", width=1000, height=300, sha256="")
+    drawn = [
+        Annotation(uid=uid, image=1, revision=1, cap=Cap(visible=v)) for uid, v in (("a", close), ("b", far))
+    ]
+    caps = caps_of(ImageContents(image=image, annotations=drawn, predictions=[], run=None))
+    assert near(caps, [(150.0, 150.0)], besides=None) == [close]
+    assert near(caps, [(150.0, 150.0), (880.0, 90.0)], besides=None) == [close, far]
+    assert near(caps, [(150.0, 150.0), (880.0, 90.0)], besides="a") == [far], "a cap hides nothing of itself"
+    assert near(caps, [], besides=None) == []
 
 
 def test_a_disc_is_found_at_a_point_and_in_a_box_less_what_lies_in_front(tmp_path: Path) -> None:

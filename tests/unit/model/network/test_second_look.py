@@ -109,3 +109,19 @@ def test_calibration_moves_the_quality_and_widens_the_covariance() -> None:
     assert network.calibrated_quality(said).item() == pytest.approx(1 / (1 + np.exp(-0.5)))
     (covariance,) = network.calibrated_covariance(said)
     assert covariance.diagonal().tolist() == pytest.approx([0.04, 0.01, 0.01, 0.01, 0.09])
+
+
+@torch.inference_mode()
+def test_few_caps_are_judged_as_all_of_a_bed_are() -> None:
+    # A hundred caps have more points to sample than a map has pixels, one has fewer than a large map.
+    network, many = look(), windows(1)
+    large = PointMaps(
+        fine=torch.randn(1, 32, 40, 60),
+        semantic=torch.randn(1, 32, 10, 15),
+        detail=None,
+        feature=torch.randn(1),
+    )
+    alone = network(large, many)
+    crowd = network(large, Windows(*(part.repeat_interleave(100, dim=0) for part in many)))
+    for one, of_all in zip(alone, crowd, strict=True):
+        assert torch.allclose(one[0], of_all[0], atol=1e-5)
