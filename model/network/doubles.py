@@ -20,19 +20,18 @@ def parted(logits: Tensor) -> tuple[Tensor, Tensor]:
     Order is kept. A mask is of several caps if it falls into parts that are round, each for itself: what is
     left of a cap on both sides of another is not.
     """
-    caps: list[Tensor] = []
-    owners: list[int] = []
-    for nth, mask in enumerate((logits > 0).cpu().numpy()):
-        parts = _caps_of(mask)
-        for part in parts:
-            there = torch.from_numpy(part).to(logits.device)
-            caps.append(torch.where(there | (logits[nth] <= 0), logits[nth], -logits[nth]))
-        if not parts:
-            caps.append(logits[nth])
-        owners += [nth] * max(1, len(parts))
-    return torch.stack(caps) if caps else logits, torch.tensor(
-        owners, device=logits.device, dtype=torch.int64
-    )
+    found = {nth: caps for nth, mask in enumerate((logits > 0).cpu().numpy()) if (caps := _caps_of(mask))}
+    counts = torch.ones(len(logits), dtype=torch.int64, device=logits.device)
+    for nth, caps in found.items():
+        counts[nth] = len(caps)
+    owners = torch.arange(len(logits), device=logits.device).repeat_interleave(counts)
+    apart = logits[owners] if found else logits
+    for nth, caps in found.items():
+        first = int(counts[:nth].sum())
+        for place, cap in enumerate(caps, first):
+            there = torch.from_numpy(cap).to(logits.device)
+            apart[place] = torch.where(there | (logits[nth] <= 0), logits[nth], -logits[nth])
+    return apart, owners
 
 
 def _caps_of(mask: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
