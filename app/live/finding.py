@@ -93,5 +93,6 @@ class Finding:
             points=request.points,
             wanted=request.wanted,
             box=box,
+            closely=request.closely,
             front=near(caps, places, besides=request.besides),
         )

@@ -129,6 +129,7 @@
  * @property {boolean[]} wanted
  * @property {[number, number, number, number] | null} box
  * @property {string | null} besides
+ * @property {boolean} closely
  */
 
 /**
