@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import tempfile
 from pathlib import Path
@@ -14,6 +15,8 @@ from fairyring.app.demo.making import make_demo
 
 PICTURES = Path(__file__).parent / "pictures"
 WINDOW: ViewportSize = {"width": 1440, "height": 860}
+SHOWN = (490.0, 225.0)
+"""A cap of the first bed with others on every side."""
 
 
 def main() -> None:
@@ -37,7 +40,7 @@ def _walk(tab: Tab) -> None:
     tab.saved()
     caps = [cap for cap in tab.state("shapes") if len(cap["cap"]["visible"]) == 1]
     caps.sort(key=lambda cap: -len(cap["cap"]["visible"][0]))
-    middle = next(cap for cap in caps if _is_well_inside(cap))
+    middle = min(caps, key=lambda cap: math.dist(centroid(cap["cap"]["visible"][0]), SHOWN))
     place = centroid(middle["cap"]["visible"][0])
     tab.select(place)
     tab.press("z")
@@ -100,17 +103,14 @@ def _drag_a_vertex(tab: Tab, part: list[float]) -> None:
 def _circle_loosely(tab: Tab, cap: dict) -> None:
     """Draws a cap anew, by a loose circle; the rim near it is offered."""
     x, y, radius = cap["whole"]["cx"], cap["whole"]["cy"], (cap["whole"]["a"] + cap["whole"]["b"]) / 2
+    # Away from its vertices, of which Delete would take one.
+    tab.page.mouse.move(*tab.screen((x, y)))
     tab.press("Delete", "c")
     tab.drag((x + 3, y - 3), (x + 3 + 1.1 * radius, y - 3))
     tab.wait_for("window.fairyring.state.suggestion")
     _take(tab, "rim")
     tab.press("Escape", "v", "Control+z", "Control+z")
     tab.saved()
-
-
-def _is_well_inside(cap: dict) -> bool:
-    x, y = centroid(cap["cap"]["visible"][0])
-    return 300 < x < 980 and 200 < y < 520
 
 
 def _mark_some(tab: Tab, caps: list[dict]) -> None:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from pycocotools.coco import COCO
 
 from fairyring.app.bench.projects import Bed, write_labels
+from fairyring.app.bench.serving import FAIRYRING
 from fairyring.app.bench.timing import Row, row
 from fairyring.model.errors import FairyringError
 
@@ -40,7 +41,6 @@ between = time.perf_counter()
 read.export(sys.argv[2], "coco_instances")
 print(json.dumps([between - start, time.perf_counter() - between]))
 """
-FAIRYRING = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
 
 
 class Ran(NamedTuple):

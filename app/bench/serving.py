@@ -14,8 +14,14 @@ from pathlib import Path
 from urllib.request import urlopen
 
 START_S = 180.0
-FAIRYRING = (sys.executable, "-c", "from fairyring.app.cli import main; main()")
-"""The command, of this very Python."""
+_AS_A_SHELL_STARTS_IT = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from fairyring.app.cli import main
+main()
+"""
+FAIRYRING = (sys.executable, "-c", _AS_A_SHELL_STARTS_IT)
+"""The command, of this very Python. Ctrl+C ends it, also where a shell runs all this in the background."""
 
 
 def free_port() -> int:

@@ -6,18 +6,12 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 
-FAIRYRING = """
-import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from fairyring.app.cli import main
-main()
-"""
-"""As a shell starts it, whatever started the tests: with Ctrl+C as it is by default."""
+from fairyring.app.bench.serving import FAIRYRING
+
 STOPPED = 130
 WITHIN_S = 120
 """A busy machine takes its time to begin and to end."""
@@ -27,7 +21,7 @@ def started(folder: Path, command: str) -> subprocess.Popen[str]:
     """A command at work in a folder; what it puts aside goes to ``tmp`` beside that."""
     (folder.parent / "tmp").mkdir(exist_ok=True)
     return subprocess.Popen(
-        [sys.executable, "-c", FAIRYRING, *command.split()],
+        [*FAIRYRING, *command.split()],
         cwd=folder,
         env=os.environ | {"TMPDIR": str(folder.parent / "tmp")},
         stdout=subprocess.DEVNULL,

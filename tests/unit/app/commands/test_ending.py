@@ -2,18 +2,16 @@
 
 import os
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from fairyring.app.bench.serving import FAIRYRING
 from fairyring.app.cli import app
 from fairyring.app.commands import info, progress
 from fairyring.storage.project import create_project
-
-FAIRYRING = [sys.executable, "-c", "from fairyring.app.cli import main; main()"]
 
 
 @pytest.fixture
