@@ -106,7 +106,7 @@ def test_every_number_of_two_annotators_leads_to_the_caps_that_it_counts(
     # Ben left out the second cap of Ada's.
     shown.first.click()
     tab.wait_for(f"window.fairyring.state.selection[0] === {uid_of(1, 1)!r}")
-    tab.page.get_by_text("missed: the model has no such cap").first.wait_for()
+    tab.page.get_by_text("missed: the second annotator has no such cap").first.wait_for()
     bed_1 = tab.page.get_by_role("table", name="Images of two annotators").get_by_role(
         "row", name="bed_1.png"
     )
