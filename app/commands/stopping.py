@@ -12,8 +12,6 @@ from fairyring.model.progress import Progress
 
 INTERRUPTED = 130
 """Exit code after Ctrl+C or SIGTERM; shells report the same after Ctrl+C."""
-
-
 AGAIN_AFTER_S = 0.05
 """Long enough for Python to be out of what swallowed an interrupt."""
 

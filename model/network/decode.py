@@ -78,9 +78,8 @@ def decode(outputs: Outputs, image: int, config: NetworkConfig, settings: Decode
     order = scores.topk(min(settings.most_before_nms, int((scores > 0).sum()))).indices
     logits, owners = parted(logits[order])
     order = order[owners]
-    scores = _suppressed(
-        logits > 0, scores[order], weight=(owners.bincount()[owners] == 1) * (1 - LESS) + LESS
-    )
+    is_whole = owners.bincount()[owners] == 1
+    scores = _suppressed(logits > 0, scores[order], weight=torch.where(is_whole, 1.0, LESS))
     kept = scores.topk(min(settings.most, int((scores >= settings.least_score).sum()))).indices
     return Instances(scores[kept], found.kernels[order[kept]], logits[kept])
 

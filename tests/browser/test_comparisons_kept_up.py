@@ -107,6 +107,11 @@ def test_a_run_that_is_gone_while_it_is_on_the_photo_gives_way_to_the_latest(
     count_of(tab, 6, missed=1)
     drawn = tab.page.get_by_role("combobox", name="On the photo", exact=True)
     expect(drawn).to_have_value("the latest of each image", timeout=30_000)
+    for key, image in (("n", 2), ("p", 1)):
+        tab.press(key)
+        tab.wait_for(f"window.fairyring.state.image.id === {image}")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
 
 
 def test_a_run_that_is_gone_while_it_stands_beside_another_is_chosen_no_more(

@@ -31,11 +31,15 @@ class Finalized:
 
 @pytest.mark.usefixtures("_interrupted_by_both")
 def test_ctrl_c_in_a_finalizer_stops_what_follows() -> None:
-    went_on = False
-    with pytest.raises(KeyboardInterrupt), swallowed_interrupts_again():  # noqa: PT012
+    went_on = []
+
+    def interrupted_in_a_finalizer() -> None:
         Finalized()
-        went_on = True
+        went_on.append("from the finalizer")
         time.sleep(20)
+
+    with pytest.raises(KeyboardInterrupt), swallowed_interrupts_again():
+        interrupted_in_a_finalizer()
     assert went_on
 
 
