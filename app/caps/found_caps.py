@@ -39,8 +39,6 @@ class Asked(Struct, frozen=True, kw_only=True):
     wanted: Sequence[bool] = ()
     """Of each point, whether it is to be on the cap; the first is."""
     box: tuple[float, float, float, float] | None = None
-    closely: bool = True
-    """Whether a photo is looked at closely around points where it shows something small or nothing."""
     front: Sequence[Outline] = ()
     """What other caps show, of which it may show no pixel."""
 
@@ -57,8 +55,6 @@ def cap_found(asked: Asked) -> tuple[float, Outline] | None:
 
         if asked.box is not None:
             found = predictor.within(seen, asked.box, front=asked.front)
-        elif asked.points and not asked.closely:
-            found = predictor.at(seen, asked.points, asked.wanted, front=asked.front)
         elif asked.points:
             found = cap_at_points(predictor, rgb, seen, asked.points, asked.wanted, front=asked.front)
     return None if found is None else (found.score, found.outline)

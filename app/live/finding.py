@@ -93,6 +93,5 @@ class Finding:
             points=request.points,
             wanted=request.wanted,
             box=box,
-            closely=request.closely,
             front=near(caps, places, besides=request.besides),
         )

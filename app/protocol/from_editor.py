@@ -70,8 +70,6 @@ class FindCap(FromEditor, frozen=True, tag="find_cap"):
     """Left, top, right, bottom."""
     besides: str | None = None
     """An annotation that hides nothing of it: the one that is to be put right."""
-    closely: bool = True
-    """Whether what is small is looked at closely, which takes longer."""
 
 
 class Compare(FromEditor, frozen=True, tag="compare"):

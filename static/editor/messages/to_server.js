@@ -129,7 +129,6 @@
  * @property {boolean[]} wanted
  * @property {[number, number, number, number] | null} box
  * @property {string | null} besides
- * @property {boolean} closely
  */
 
 /**

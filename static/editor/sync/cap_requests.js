@@ -8,7 +8,7 @@
 /** @typedef {import("../protocol.js").FoundCap} FoundCap */
 /** @typedef {import("../protocol.js").Point} Point */
 /** @typedef {import("../protocol.js").ToServer} ToServer */
-/** @typedef {{points: Point[], wanted: boolean[], box: [number, number, number, number] | null, besides?: string | null, closely?: boolean}} Question */
+/** @typedef {{points: Point[], wanted: boolean[], box: [number, number, number, number] | null, besides?: string | null}} Question */
 /** @typedef {{question: Question, answer: (found: FoundCap | null) => void}} Waiting */
 
 /** Who draws an outline to a rim waits no longer for the network than this. */
@@ -97,8 +97,8 @@ export class CapRequests {
     if (!next) return;
     if (next === this.#latest) this.#latest = null;
     const image = this.#image();
-    const { besides = null, closely = true, ...question } = next.question;
-    if (image !== null && this.#send({ type: "find_cap", seq: ++this.#seq, image, besides, closely, ...question }))
+    const { besides = null, ...question } = next.question;
+    if (image !== null && this.#send({ type: "find_cap", seq: ++this.#seq, image, besides, ...question }))
       this.#asked = next;
     else next.answer(null);
   }

@@ -22,7 +22,7 @@ import { CLICK_PX, apart } from "./tool.js";
 /** @typedef {import("../../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./tool.js").Press} Press */
 /** @typedef {import("./tool.js").Tool} Tool */
-/** @typedef {{points: Point[], wanted: boolean[], box: [number, number, number, number] | null, closely?: boolean}} Question */
+/** @typedef {{points: Point[], wanted: boolean[], box: [number, number, number, number] | null}} Question */
 
 /**
  * @typedef {Object} Network
@@ -41,7 +41,7 @@ const NONE_THERE = "The network sees no cap there.";
 export class PointTool {
   name = "point";
   cursor = "crosshair";
-  /** What the network sees, and whether it has looked closely. @type {{visible: Outline, score: number, closely: boolean} | null} */
+  /** What would be taken. @type {{visible: Outline, score: number} | null} */
   #preview = null;
   /** The cap that was taken last, and the points that tell of it. @type {{uid: string, points: Point[], wanted: boolean[]} | null} */
   #taken = null;
@@ -86,15 +86,12 @@ export class PointTool {
     this.#state.signals.overlay.emit();
   }
 
-  /** At a glance first, as a closer look takes longer. @type {(press: Press) => Promise<void>} */
+  /** @type {(press: Press) => Promise<void>} */
   async #look(press) {
-    const question = { points: [pointOf(press)], wanted: [true], box: null };
-    for (const closely of [false, true]) {
-      const found = await this.#ask({ ...question, closely }, { keep: false });
-      if (!found || this.#at !== press || this.#start) return;
-      this.#preview = found.visible && { visible: found.visible, score: found.score ?? 0, closely };
-      this.#state.signals.overlay.emit();
-    }
+    const found = await this.#ask({ points: [pointOf(press)], wanted: [true], box: null }, { keep: false });
+    if (!found || this.#at !== press || this.#start) return;
+    this.#preview = found.visible && { visible: found.visible, score: found.score ?? 0 };
+    this.#state.signals.overlay.emit();
   }
 
   /** @type {(question: Question, how: {keep: boolean}) => Promise<FoundCap | null>} */
@@ -139,7 +136,7 @@ export class PointTool {
     }
     const question = { points: [pointOf(press)], wanted: [true], box: null };
     const preview = this.#preview;
-    if (preview?.closely) this.#put(preview.visible, question);
+    if (preview) this.#put(preview.visible, question);
     else void this.#take(question);
   }
 

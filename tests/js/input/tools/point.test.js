@@ -48,33 +48,10 @@ test("where the pointer rests the network is asked, and a click takes what was s
   hand.hover([650, 150]);
   hand.hover([652, 150]);
   await rested();
-  assert.deepEqual(asked.map(({ question, keep }) => [question.points, question.closely, keep]), [
-    [[[652, 150]], false, false],
-    [[[652, 150]], true, false],
-  ]);
+  assert.deepEqual(asked.map(({ question, keep }) => [question.points, keep]), [[[[652, 150]], false]]);
   hand.down([652, 150]);
   hand.up([652, 150]);
-  assert.deepEqual([rights(), asked.length], [[700], 2]);
-});
-
-test("what was seen at a glance alone is not taken: a click waits for the closer look", async () => {
-  const { state } = openState({ shapes: [] });
-  /** @type {((found: import("../../../../static/editor/protocol.js").FoundCap) => void)[]} */
-  const looking = [];
-  const found = (/** @type {number} */ right) => {
-    const visible = [THERE.map((value, i) => (i === 2 || i === 4 ? right : value))];
-    return { type: /** @type {const} */ ("found_cap"), seq: 1, image: 1, visible, score: 0.8 };
-  };
-  /** @type {import("../../../../static/editor/input/tools/point.js").Network["ask"]} */
-  const ask = async ({ closely = true }) =>
-    closely ? new Promise((answer) => looking.push(answer)) : found(690);
-  const hand = handOf(state, new PointTool(state, () => {}, { ask, busy: () => false }));
-  hand.hover([650, 150]);
-  await rested();
-  hand.click([650, 150]);
-  for (const answer of looking) answer(found(710));
-  await rested();
-  assert.deepEqual(state.items.all.map(({ cap }) => cap.visible[0][2]), [710]);
+  assert.deepEqual([rights(), asked.length], [[700], 1]);
 });
 
 test("with Shift a further point adds to the cap that was taken, with Alt one takes away", async () => {

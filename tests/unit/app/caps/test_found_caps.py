@@ -47,16 +47,3 @@ def test_a_disc_is_found_at_a_point_and_in_a_box_less_what_lies_in_front(tmp_pat
     cut = cap_found(Asked(photo=path, weights=SHIPPED, points=[(130.0, 120.0)], wanted=[True], front=front))
     assert cut is not None
     assert max(cut[1][0][::2]) < 153
-
-
-def test_at_a_glance_a_bud_is_not_looked_at_closely(tmp_path: Path) -> None:
-    photo = np.full((256, 320, 3), 40, np.uint8)
-    cv2.circle(photo, (200, 60), 5, (215, 222, 225), -1, cv2.LINE_AA)
-    path = tmp_path / "bed.png"
-    cv2.imwrite(str(path), cv2.GaussianBlur(photo, (3, 3), 0))
-    closely, at_a_glance = (
-        cap_found(Asked(photo=path, weights=SHIPPED, points=[(200.5, 60.5)], wanted=[True], closely=closely))
-        for closely in (True, False)
-    )
-    assert closely is not None
-    assert closely != at_a_glance
