@@ -20,7 +20,6 @@ from fairyring.model.geometry.shapes import Outline
 from fairyring.model.processes import usable_cores
 
 if TYPE_CHECKING:
-    from fairyring.model.photo import Pixels
     from fairyring.model.predict.predictor import Predictor
     from fairyring.model.predict.seen import Detection, Seen
 
@@ -47,16 +46,14 @@ def cap_found(asked: Asked) -> tuple[float, Outline] | None:
     """The score and the outline of the cap; None where the network sees none, or was to look only."""
     # While a photo is looked at, somebody may have a cap in hand.
     with _threads(max(1, usable_cores() - 1)):
-        predictor, rgb, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
+        predictor, seen = _seen(asked.photo, asked.weights, asked.weights.stat().st_mtime_ns)
     found: Detection | None = None
     # One cap is too little work to share: threads that wait for some keep cores busy.
     with _threads(1):
-        from fairyring.model.predict.close_up import cap_at_points
-
         if asked.box is not None:
             found = predictor.within(seen, asked.box, front=asked.front)
         elif asked.points:
-            found = cap_at_points(predictor, rgb, seen, asked.points, asked.wanted, front=asked.front)
+            found = predictor.at(seen, asked.points, asked.wanted, front=asked.front)
     return None if found is None else (found.score, found.outline)
 
 
@@ -83,12 +80,12 @@ def near(caps: ImageCaps, places: Sequence[tuple[float, float]], *, besides: str
 
 
 @lru_cache(maxsize=PHOTOS)
-def _seen(path: Path, weights: Path, changed: int) -> tuple[Predictor, Pixels, Seen]:
+def _seen(path: Path, weights: Path, changed: int) -> tuple[Predictor, Seen]:
     from fairyring.model.predict.scale import see_at_its_scale
 
     predictor = _predictor(weights, changed)
     rgb = np.ascontiguousarray(photo.read(path)[:, :, ::-1])
-    return predictor, rgb, see_at_its_scale(predictor, rgb)
+    return predictor, see_at_its_scale(predictor, rgb)
 
 
 @lru_cache(maxsize=1)

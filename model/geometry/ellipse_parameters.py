@@ -45,11 +45,6 @@ class LikelyEllipse(Struct, frozen=True, kw_only=True):
             parameters=(x * float(by[0]), y * float(by[1]), grown, u, v), covariance=self.covariance
         )
 
-    def moved(self, dx: float, dy: float) -> LikelyEllipse:
-        """The same so many pixels further right and down."""
-        x, y, log_r, u, v = self.parameters
-        return LikelyEllipse(parameters=(x + dx, y + dy, log_r, u, v), covariance=self.covariance)
-
 
 def parameters_of(shape: Shape) -> Parameters:
     """The five numbers of a circle or an ellipse."""

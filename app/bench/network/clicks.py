@@ -16,15 +16,13 @@ from fairyring.app.bench.network.tables import CERTAIN
 from fairyring.model.geometry.boxes import box_of_outline
 from fairyring.model.geometry.raster import Rle, iou_matrix, mask_of_rle, rle_of_outline
 from fairyring.model.geometry.shapes import Outline, area_of_outline
-from fairyring.model.photo import Pixels
-from fairyring.model.predict.close_up import cap_at_points
 from fairyring.model.predict.predictor import Predictor
 from fairyring.model.predict.scale import see_at_its_scale
 from fairyring.model.predict.seen import Detection, Seen
 
 LEAST_IOU, CLOSE_IOU = 0.5, 0.75
-Ask = Callable[[Pixels, Seen, Outline, list[Outline]], Detection | None]
-"""Asks for a cap of this outline in a photo, in front of which others lie."""
+Ask = Callable[[Seen, Outline, list[Outline]], Detection | None]
+"""Asks for a cap of this outline, in front of which others lie."""
 BUD_PX = 15.0
 """Diameter under which a cap is called a bud here, of a circle of what is visible."""
 
@@ -38,10 +36,8 @@ def click_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, A
     that were found lie in front. Buds are smaller than BUD_PX.
     """
     asked: dict[str, Ask] = {
-        "click": lambda pixels, seen, outline, front: cap_at_points(
-            predictor, pixels, seen, [_middle_of(outline, seen)], front=front
-        ),
-        "box": lambda _, seen, outline, front: predictor.within(seen, box_of_outline(outline), front=front),
+        "click": lambda seen, outline, front: predictor.at(seen, [_middle_of(outline, seen)], front=front),
+        "box": lambda seen, outline, front: predictor.within(seen, box_of_outline(outline), front=front),
     }
     likeness: dict[tuple[str, str], list[float]] = {}
     times: dict[str, list[float]] = {name: [] for name in asked}
@@ -60,7 +56,7 @@ def click_rows(predictor: Predictor, photos: LabelledPhotos) -> list[dict[str, A
         for outline, truth, was_missed in zip(outlines, truths, missed.tolist(), strict=True):
             for name, ask in asked.items():
                 began = time.process_time()
-                cap = ask(pixels, seen, outline, front if was_missed else [])
+                cap = ask(seen, outline, front if was_missed else [])
                 times[name].append(time.process_time() - began)
                 likeness.setdefault((name, "all"), []).append(_iou(truth, cap))
                 if math.sqrt(4 * area_of_outline(outline) / math.pi) < BUD_PX:
