@@ -53,10 +53,21 @@ def static_files() -> StaticFiles:
     return _read(tuple((path, path.stat().st_mtime_ns, path.stat().st_size) for path in paths))
 
 
+def files_of(version: str) -> StaticFiles:
+    """Those of the version read last without a look at the disk, for any other version those of now."""
+    return _READ_LAST.get(version) or static_files()
+
+
+_READ_LAST: dict[str, StaticFiles] = {}
+
+
 @lru_cache(maxsize=1)
 def _read(stamps: tuple[tuple[Path, int, int], ...]) -> StaticFiles:
     contents = {path.relative_to(STATIC).as_posix(): path.read_bytes() for path, *_ in stamps}
-    return StaticFiles(contents, version_of(contents))
+    files = StaticFiles(contents, version_of(contents))
+    _READ_LAST.clear()
+    _READ_LAST[files.version] = files
+    return files
 
 
 def version_of(contents: Mapping[str, bytes]) -> str:
@@ -67,10 +78,11 @@ def version_of(contents: Mapping[str, bytes]) -> str:
 
 def static_file(request: Request) -> Response:
     """GET /static/VERSION/PATH. A page of an older version gets what there is now, to be asked for again."""
-    files, path = static_files(), request.path_params["path"]
+    path, version = request.path_params["path"], request.path_params["version"]
+    files = files_of(version)
     if path not in files.contents:
         return PlainTextResponse("There is no such file.", status_code=404)
-    current = request.path_params["version"] == files.version
+    current = version == files.version
     return compressed(
         request,
         files.contents[path],

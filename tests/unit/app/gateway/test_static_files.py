@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fairyring.app.gateway import static_files as served
-from fairyring.app.gateway.static_files import StaticFiles, static_files, version_of
+from fairyring.app.gateway.static_files import StaticFiles, files_of, static_files, version_of
 
 
 @pytest.fixture
@@ -34,6 +34,18 @@ def test_a_change_is_seen_at_once_and_changes_every_address(static: Path) -> Non
     after = static_files()
     assert after.contents["a.css"] == b"A"
     assert after.url("sub/b.js") != before.url("sub/b.js")
+
+
+def test_the_files_of_a_page_come_without_a_look_at_the_disk_until_a_page_has_a_newer_version(
+    static: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = static_files()
+    (static / "a.css").write_text("longer")
+    with monkeypatch.context() as away:
+        away.setattr(served, "STATIC", None)
+        assert files_of(before.version) is before
+    assert files_of("of an older page").contents["a.css"] == b"longer"
+    assert files_of(before.version).contents["a.css"] == b"longer"
 
 
 def test_the_version_tells_names_and_contents_apart() -> None:
