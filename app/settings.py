@@ -34,6 +34,8 @@ class Settings(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Most megabytes of converted photos in the project's cache folder."""
     message_limit_mb: int = 16
     """Megabytes of the largest message an editor may send."""
+    look_ahead: bool = True
+    """Whether the network looks at a photo as soon as somebody stays on it, so that Point answers at once."""
 
 
 def load_settings(

@@ -14,18 +14,17 @@ os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 settings.register_profile("unhurried", deadline=None)
 settings.load_profile("unhurried")
 
-ONE_AFTER_ANOTHER = ("tests/browser/", "tests/bench/")
-"""Tests that draw the page or measure: no two of them at once."""
 
-
-class _PagesTogether(LoadScopeScheduling):
-    """Gives all tests of the page to one process, and any other test to whichever is free."""
+class _PagesByFile(LoadScopeScheduling):
+    """A process gets whole files of tests of the page, or all measurements; any other test is alone."""
 
     def _split_scope(self, nodeid: str) -> str:
-        return "page" if nodeid.startswith(ONE_AFTER_ANOTHER) else nodeid
+        if nodeid.startswith("tests/bench/"):
+            return "tests/bench"
+        return nodeid.split("::", maxsplit=1)[0] if nodeid.startswith("tests/browser/") else nodeid
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
     """Several processes share the tests so (docs/decisions/0030)."""
-    return _PagesTogether(config, log)
+    return _PagesByFile(config, log)

@@ -151,7 +151,13 @@ async def _receive_all(workspace: Workspace, session: Session, socket: WebSocket
     # Before anything is said: an answer to the first word may be large.
     limit = workspace.settings.message_limit_mb * A_MEGABYTE
     trust(socket.scope, most=limit + FRAME_MARGIN)
-    session.send(Welcome(user=session.user, project=workspace.project.id))
+    session.send(
+        Welcome(
+            user=session.user,
+            project=workspace.project.id,
+            look_ahead=workspace.settings.look_ahead,
+        )
+    )
     if workspace.project.read_only:
         session.notify("This project is read-only; changes to it are refused.", "warning")
     await take_up_queue(workspace, session)

@@ -28,6 +28,8 @@ class Welcome(FromServer, frozen=True, tag="welcome"):
     user: str
     project: str
     """A stable id: the browser keys its outbox by it."""
+    look_ahead: bool = True
+    """Whether to ask for a first look at a photo as soon as somebody stays on it."""
 
 
 class Show(FromServer, frozen=True, tag="show"):

@@ -67,6 +67,8 @@ export class Editor {
   #refusals;
   #toolbox;
   #found;
+  /** Whether the network looks at photos before anybody points. */
+  #looksAhead = true;
   #reviewing;
   #repeating;
   #perform;
@@ -162,7 +164,7 @@ export class Editor {
       drawings: this.#drawings,
       select,
       say: this.#say,
-      look: () => void this.#found.ask(LOOK, { keep: false }),
+      look: () => void (this.#looksAhead && this.#found.ask(LOOK, { keep: false })),
     });
     this.#perform = performer({
       host,
@@ -275,9 +277,10 @@ export class Editor {
   }
 
   /** @type {(welcome: import("./protocol.js").Welcome) => Promise<void>} */
-  async #welcome({ project, user }) {
+  async #welcome({ project, user, look_ahead }) {
     this.#waiting = 0;
     this.#user = user;
+    this.#looksAhead = look_ahead;
     this.#transport.send(this.#window());
     if (this.#project !== project) {
       this.#project = project;

@@ -26,6 +26,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.flaky(reruns=1))
 
 
+@pytest.fixture(autouse=True)
+def look_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most tests point at nothing, and a network that looks at their photos takes a good part of the time."""
+    monkeypatch.setenv("FAIRYRING_LOOK_AHEAD", "false")
+
+
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     # One a module: while playwright is at work its event loop runs, and asyncio.run refuses to.

@@ -9,7 +9,7 @@ import pytest
 from shapely import Polygon
 
 from fairyring.app.bench.browser.tab import Tab, centroid
-from fairyring.app.bench.serving import Server
+from fairyring.app.bench.serving import Server, served
 from tests.support.kept import kept_cap, live_caps
 
 SAME_CAP = 0.5
@@ -20,6 +20,11 @@ def likeness(a: list[float], b: list[float]) -> float:
     """IoU of two rings."""
     first, second = (Polygon([*zip(ring[::2], ring[1::2], strict=True)]).buffer(0) for ring in (a, b))
     return first.intersection(second).area / first.union(second).area
+
+
+@pytest.fixture(autouse=True)
+def look_ahead() -> None:
+    """The network looks at photos before anybody points, as usual."""
 
 
 @pytest.fixture
@@ -69,3 +74,16 @@ def test_the_network_looks_at_a_photo_on_which_somebody_stays_and_answers_at_onc
     tab.click(centroid(ring))
     tab.page.wait_for_function("() => window.fairyring.state.shapes.length === 1", timeout=5_000)
     assert likeness(tab.state("shapes")[0]["cap"]["visible"][0], ring) > SAME_CAP
+
+
+def test_where_the_settings_want_it_so_the_network_looks_only_once_somebody_points(
+    project: Path, open_tab: Callable[..., Tab]
+) -> None:
+    (project / "fairyring.toml").write_text("[serve]\nlook_ahead = false\n")
+    with served(project) as server:
+        tab = open_tab(server)
+        tab.page.wait_for_timeout(2500)
+        assert not tab.state("asking")
+        tab.press("e")
+        tab.click((3, 3))
+        tab.wait_for("window.fairyring.state.asking")

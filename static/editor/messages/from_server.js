@@ -20,6 +20,7 @@
  * @property {"welcome"} type
  * @property {string} user
  * @property {string} project
+ * @property {boolean} look_ahead
  */
 
 /**

@@ -40,6 +40,11 @@ def test_a_tab_is_welcomed_and_shown_the_first_image(port: int, project: Project
         assert [url.split("/")[2] for url in shown.ahead] == ["2"]
 
 
+def test_a_tab_is_told_where_the_network_is_not_to_look_ahead(serve: Callable[..., int]) -> None:
+    with Tab(serve(look_ahead=False), name="Ada") as tab:
+        assert not tab.expect(Welcome).look_ahead
+
+
 def test_a_token_is_good_once(port: int) -> None:
     panel = Panel(port, name="Ada")
     token = panel.token
