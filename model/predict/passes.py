@@ -48,7 +48,7 @@ class Pass(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 ONE_PASS = (Pass(),)
 TWO_PASSES = (Pass(least=24), Pass(enlarged=1.5, most=48))
-"""Caps of 24 to 48 pixels are taken from whichever of the two is surer of them."""
+"""Caps of 24 to 48 pixels are taken from both, brought together."""
 
 
 def first_scale(width: int, height: int) -> float:

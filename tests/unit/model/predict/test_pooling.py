@@ -34,10 +34,22 @@ def widths(*pieces: Piece) -> list[tuple[float, int]]:
     return [(one.score, int((one.window.logits > 0).any(axis=0).sum())) for one in found]
 
 
-def test_a_cap_of_both_passes_is_taken_from_the_surer_one() -> None:
+def test_a_cap_of_both_passes_is_there_once_and_as_sure_as_the_surer() -> None:
     plain, close = disc(100, 60, 15), disc(150, 90, 22.5)
     assert widths(piece(PLAIN, (0.9, plain)), piece(CLOSE, (0.8, close))) == [(0.9, 30)]
     assert widths(piece(PLAIN, (0.7, plain)), piece(CLOSE, (0.8, close))) == [(0.8, 30)]
+
+
+def test_its_rim_lies_where_the_mean_of_both_passes_has_it() -> None:
+    """At d from the middle one says 15 - d, the other 1.5 (17 - d): 0 at 16.2 if both weigh the same."""
+    plain, close = disc(100, 60, 15), disc(150, 90, 1.5 * 17)
+    assert widths(piece(PLAIN, (0.8, plain)), piece(CLOSE, (0.8, close))) == [(0.8, 32)]
+    assert widths(piece(PLAIN, (0.8, plain)), piece(CLOSE, (0.1, close))) == [(0.8, 30)]
+
+
+def test_where_two_passes_differ_too_much_the_surer_is_believed() -> None:
+    plain, twice = disc(100, 60, 13), disc(150, 90, 1.5 * 18)
+    assert widths(piece(PLAIN, (0.9, plain)), piece(CLOSE, (0.8, twice))) == [(0.9, 26)]
 
 
 def test_caps_that_a_pass_is_not_for_are_not_taken_from_it() -> None:
