@@ -5,7 +5,8 @@
  */
 
 import { hundredths } from "../../geometry/caps.js";
-import { CASING, COLOURS } from "../../render/palette.js";
+import { boundsOfPoints, grown } from "../../geometry/bounds.js";
+import { CASING, COLOURS, FILLS, SHADE } from "../../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../../render/paths.js";
 import { toScreen } from "../../geometry/view.js";
 import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
@@ -24,14 +25,15 @@ const STEP_PX = 2;
  * What a stroke does.
  *
  * @typedef {Object} Effect
- * @property {Change[]} changes
+ * @property {Change[]} changes  that of the cap which the stroke is about comes first
+ * @property {Point[]} replaced  what of its rim gives way to the stroke
  * @property {string} note  in a few words, where they are needed; else ""
  */
 
 /**
  * @typedef {Object} Meaning
  * @property {string} name  of the tool
- * @property {string} elsewhere  said of a stroke that does nothing
+ * @property {(stroke: Point[]) => string} without  what is said of a stroke that does nothing
  * @property {(stroke: Point[], other: boolean) => Effect | null} effect  `other`: Alt is held
  * @property {(point: Point) => Shape | null} meant  the cap that a stroke which begins there is for
  */
@@ -92,6 +94,8 @@ export class StrokeTool {
     const at = this.#inPhoto(press);
     this.#other = press.alt;
     if (apart(last, at) >= this.#pixels(STEP_PX)) this.#stroke.push(at);
+    // From here on the stroke itself tells which cap it is about.
+    if (this.#stroke.length > 2) this.#state.selection.hover(null);
     this.#state.signals.overlay.emit();
   }
 
@@ -112,14 +116,14 @@ export class StrokeTool {
 
   /** Ends the stroke as letting go would. */
   leave() {
-    const drawn = this.#stroke.length > 2;
+    const stroke = this.#stroke;
     const effect = this.#effect();
     this.#forget();
     if (effect) {
       const [{ after }] = effect.changes;
       this.#state.commit(effect.changes);
       this.#state.select([after.uid]);
-    } else if (drawn) this.#say(this.#meaning.elsewhere);
+    } else if (stroke.length > 2) this.#say(this.#meaning.without(stroke));
   }
 
   #forget() {
@@ -144,10 +148,11 @@ export class StrokeTool {
     return this.#start !== null;
   }
 
-  /** What would become of the caps, dashed, under the stroke. @type {import("../../render/overlay.js").Sketch} */
+  /** The cap that the stroke is about, what would become of the caps, dashed, and the stroke upon it. @type {import("../../render/overlay.js").Sketch} */
   sketch = (context, view) => {
     if (this.#stroke.length < 2) return false;
     const effect = this.#effect();
+    if (effect) drawGivingWay(context, view, effect);
     context.beginPath();
     for (const { after } of effect?.changes ?? [])
       for (const ring of after.cap.visible) traceRing(context, view, ring);
@@ -167,13 +172,26 @@ export class StrokeTool {
   };
 }
 
+/** Fills the cap that a stroke is about, and has the piece of its rim that is to go fade. @type {(context: CanvasRenderingContext2D, view: import("../../geometry/view.js").View, effect: Effect) => void} */
+function drawGivingWay(context, view, { changes: [{ before }], replaced }) {
+  context.beginPath();
+  for (const ring of before?.cap.visible ?? []) traceRing(context, view, ring);
+  context.fillStyle = FILLS.selected;
+  context.fill();
+  context.beginPath();
+  traceRing(context, view, replaced.flat(), false);
+  context.lineWidth = 4;
+  context.strokeStyle = SHADE;
+  context.stroke();
+}
+
 /**
- * The caps that a stroke may mean: the selected one, those it begins at, those it runs through.
+ * The visible caps that a stroke may be about, the nearest to its beginning first: those whose rims pass near an end
+ * of it, and those it begins in, is in halfway, or passes.
  *
  * @type {(state: EditorState, stroke: Point[], reach: number) => Shape[]}
  */
-export function meantBy(state, stroke, reach) {
-  const [first, middle] = [stroke[0], stroke[stroke.length >> 1]];
-  const all = [state.sole, ...state.rimsNear(first, reach), state.at(first, 0), state.at(middle, 0)];
-  return all.filter((shape) => shape !== null);
+export function aroundStroke(state, stroke, reach) {
+  const all = [...state.rimsNear(stroke[0], reach), ...state.near(grown(boundsOfPoints(stroke.flat()), reach))];
+  return [...new Map(all.map((shape) => [shape.uid, shape])).values()];
 }
