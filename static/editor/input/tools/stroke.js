@@ -6,7 +6,7 @@
 
 import { hundredths } from "../../geometry/caps.js";
 import { boundsOfPoints, grown } from "../../geometry/bounds.js";
-import { CASING, COLOURS, FILLS, SHADE } from "../../render/palette.js";
+import { CASING, COLOURS, FADED, FILLS } from "../../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../../render/paths.js";
 import { toScreen } from "../../geometry/view.js";
 import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
@@ -180,8 +180,8 @@ function drawGivingWay(context, view, { changes: [{ before }], replaced }) {
   context.fill();
   context.beginPath();
   traceRing(context, view, replaced.flat(), false);
-  context.lineWidth = 4;
-  context.strokeStyle = SHADE;
+  context.lineWidth = 2.5;
+  context.strokeStyle = FADED;
   context.stroke();
 }
 

@@ -4,7 +4,7 @@ import test from "node:test";
 import { areaOfRing, polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
 import { areaOf, shared } from "../../../../static/editor/geometry/regions.js";
 import { rimTool } from "../../../../static/editor/input/tools/rim.js";
-import { SHADE } from "../../../../static/editor/render/palette.js";
+import { FADED } from "../../../../static/editor/render/palette.js";
 import { SelectTool } from "../../../../static/editor/input/tools/select.js";
 import { capOf, prediction } from "../../support/caps.js";
 import { handOf } from "../../support/hand.js";
@@ -265,5 +265,5 @@ test("while a stroke is drawn, what of the rim is to go fades, and nothing else 
     { get: (own, name) => Reflect.get(own, name) ?? (() => {}) },
   );
   tool.sketch(/** @type {any} */ (context), state.viewport.view);
-  assert.deepEqual([strokes.includes(SHADE), state.selection.hovered], [true, null]);
+  assert.deepEqual([strokes.includes(FADED), state.selection.hovered], [true, null]);
 });
