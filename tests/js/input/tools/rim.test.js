@@ -251,19 +251,30 @@ test("a stroke that bends around a neighbour is about the neighbour, unless anot
   assert.deepEqual(meant(), ["around 0", "small"]);
 });
 
-test("while a stroke is drawn, what of the rim is to go fades, and nothing else is lit", () => {
+test("while a stroke is drawn, what of the rim is to go fades, nothing else is lit, and what neighbours lose is said", () => {
   const { hand, state, tool } = denseSpot();
-  const [first, ...way] = arcOfSpot(108, 20, 100);
+  // Out into the neighbour between its ends, which are 24 px off.
+  const [first, ...way] = arcOfSpot(1, 20, 100).map(([x, y], i, all) => {
+    const radius = 104 + 20 * Math.sin((Math.PI * i) / (all.length - 1));
+    return /** @type {Point} */ ([600 + radius * (x - 600), 500 + radius * (y - 500)]);
+  });
   hand.hover(first);
   hand.down(first);
   hand.drag(...way);
   /** @type {string[]} */
   const strokes = [];
-  /** @type {{strokeStyle: string, stroke: () => void}} */
+  /** @type {string[]} */
+  const words = [];
+  /** @type {{strokeStyle: string, stroke: () => void, fillText: (text: string) => void}} */
   const context = new Proxy(
-    { strokeStyle: "", stroke: () => void strokes.push(context.strokeStyle) },
+    {
+      strokeStyle: "",
+      stroke: () => void strokes.push(context.strokeStyle),
+      fillText: (/** @type {string} */ text) => void words.push(text),
+    },
     { get: (own, name) => Reflect.get(own, name) ?? (() => {}) },
   );
   tool.sketch(/** @type {any} */ (context), state.viewport.view);
   assert.deepEqual([strokes.includes(FADED), state.selection.hovered], [true, null]);
+  assert.deepEqual(words, ["takes from its neighbour"]);
 });
