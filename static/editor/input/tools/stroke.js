@@ -4,8 +4,8 @@
  * @module
  */
 
-import { hundredths } from "../../geometry/caps.js";
-import { boundsOfPoints, grown } from "../../geometry/bounds.js";
+import { boundsOfPoints, contains, grown } from "../../geometry/bounds.js";
+import { hundredths, measure } from "../../geometry/caps.js";
 import { CASING, COLOURS, FADED, FILLS } from "../../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../../render/paths.js";
 import { toScreen } from "../../geometry/view.js";
@@ -20,6 +20,8 @@ import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
 
 /** Points of a stroke lie so far apart, CSS pixels. */
 const STEP_PX = 2;
+/** So far beside a cap a stroke may run that is about it, as a share of its width. */
+const BESIDE = 0.2;
 
 /**
  * What a stroke does.
@@ -186,12 +188,26 @@ function drawGivingWay(context, view, { changes: [{ before }], replaced }) {
 }
 
 /**
- * The visible caps that a stroke may be about, the nearest to its beginning first: those whose rims pass near an end
- * of it, and those it begins in, is in halfway, or passes.
+ * The visible caps that a stroke may be about, those whose rim is nearest to its beginning first: both of its ends lie
+ * on or near them, or its middle.
  *
  * @type {(state: EditorState, stroke: Point[], reach: number) => Shape[]}
  */
 export function aroundStroke(state, stroke, reach) {
-  const all = [...state.rimsNear(stroke[0], reach), ...state.near(grown(boundsOfPoints(stroke.flat()), reach))];
-  return [...new Map(all.map((shape) => [shape.uid, shape])).values()];
+  const bounds = boundsOfPoints(stroke.flat());
+  const all = [...state.rimsNear(stroke[0], reach), ...state.near(grown(bounds, reach + longerSide(bounds) / 2))];
+  const [first, middle, last] = [stroke[0], stroke[stroke.length >> 1], stroke[stroke.length - 1]];
+  const meant = all.filter(({ cap }) => {
+    const own = measure(cap).bounds;
+    if (!own) return false;
+    const around = grown(own, Math.max(reach, BESIDE * longerSide(own)));
+    const holds = (/** @type {Point} */ [x, y]) => contains(around, { x0: x, y0: y, x1: x, y1: y });
+    return holds(middle) || (holds(first) && holds(last));
+  });
+  return [...new Map(meant.map((shape) => [shape.uid, shape])).values()];
+}
+
+/** @type {(bounds: import("../../geometry/bounds.js").Bounds) => number} */
+function longerSide({ x0, y0, x1, y1 }) {
+  return Math.max(x1 - x0, y1 - y0);
 }

@@ -231,9 +231,12 @@ test("a stroke along the true rim of a cap, a third of its radius off, is about 
     [-30, 30],
     [0, 300],
   ]) {
-    const { hand, meant } = denseSpot();
-    hand.stroke(arcOfSpot(108, from, to));
-    assert.deepEqual(meant(), ["small"], `${from} to ${to}`);
+    for (const zoom of [0.5, 1, 6]) {
+      const { hand, meant, state } = denseSpot();
+      state.viewport.zoomBy(zoom);
+      hand.stroke(arcOfSpot(108, from, to));
+      assert.deepEqual(meant(), ["small"], `${from} to ${to}, ${zoom} times as large`);
+    }
   }
 });
 
