@@ -12,7 +12,12 @@ from fairyring.app.panels.markup import Markup, element
 
 SLIDERS = {"brightness": "Brightness", "contrast": "Contrast", "gamma": "Gamma"}
 CHANNELS = {"all": "all colours", "red": "red alone", "green": "green alone", "blue": "blue alone"}
-COLOURINGS = {"none": "what they are", "score": "score", "sure": "how sure the centre is"}
+COLOURINGS = {
+    "none": "what they are",
+    "score": "score",
+    "quality": "how good the outline is likely to be",
+    "sure": "how sure the centre is",
+}
 
 
 def build(session: Session) -> None:

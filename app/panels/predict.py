@@ -88,7 +88,7 @@ def words_for_every(count: int, seconds: float | None) -> str:
         seconds: an image takes; None where nothing was predicted yet.
     """
     if not count:
-        return f"{EVERY}: all are"
+        return f"{EVERY} (none is left)"
     images = f"{count} image{'' if count == 1 else 's'}"
     return f"{EVERY}: {images}" + (
         ", time not known yet" if seconds is None else f", {about(count * seconds)}"

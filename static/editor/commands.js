@@ -174,7 +174,8 @@ export default {
   "held": [
     { "name": "pan", "key": "Space", "words": "A drag moves the view" },
     { "name": "hide", "key": "H", "words": "Hide all shapes" },
-    { "name": "broom", "key": "B", "words": "Broom: delete the caps that the pointer runs over" }
+    { "name": "broom", "key": "B", "words": "Broom: delete the caps that the pointer runs over",
+      "hint": "Run over caps: they go when the key is let go · Esc lets them be" }
   ],
   "gestures": [
     { "gesture": "Wheel", "words": "Zoom to the pointer" },

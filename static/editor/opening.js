@@ -4,6 +4,7 @@
  * @module
  */
 
+import { LookSoon } from "./sync/look_soon.js";
 import { firstAddress, putCapInAddress, putInAddress } from "./ui/address.js";
 
 /** @typedef {import("./input/toolbox.js").Toolbox} Toolbox */
@@ -29,20 +30,18 @@ import { firstAddress, putCapInAddress, putInAddress } from "./ui/address.js";
  * @property {(text: string, level: "info" | "warning" | "error") => void} say
  */
 
-/** Whoever stays on an image so long may want to point at its caps; whoever only leafs through does not. */
-const STAYS_MS = 1500;
-
 const HALF_DRAWN = "An outline is half drawn here: W goes on with it, Enter closes it.";
 
 export class Opening {
   /** When the person asked for the image that has not come yet. @type {number | null} */
   #asked = null;
-  #stays = 0;
   #parts;
+  #lookSoon;
 
   /** @param {Parts} parts */
   constructor(parts) {
     this.#parts = parts;
+    this.#lookSoon = new LookSoon(parts.state, parts.look);
   }
 
   /** The person asks for another image. @type {(sent: boolean) => void} */
@@ -78,7 +77,7 @@ export class Opening {
   #leave() {
     const { state, toolbox, frame, drawings, say } = this.#parts;
     const name = state.image?.file_name;
-    clearTimeout(this.#stays);
+    this.#lookSoon.stop();
     toolbox.leave();
     if (state.image) state.clipboard.leave(state.items.all, state.image.id);
     if (drawings.leave() && name) say(`The outline stays half drawn on ${name}.`, "info");
@@ -100,13 +99,6 @@ export class Opening {
     const { photos, frame } = this.#parts;
     frame.log({ event: asked, drawn: performance.now(), draw_ms: 0, kind: "switch" });
     photos.prefetch(ahead);
-    this.#lookSoon();
-  }
-
-  /** The network looks at the photo, but not while a cap is in hand: it would keep the fits of that waiting. */
-  #lookSoon() {
-    const { state, look } = this.#parts;
-    clearTimeout(this.#stays);
-    this.#stays = setTimeout(() => (state.drafts.all.length ? this.#lookSoon() : look()), STAYS_MS);
+    this.#lookSoon.begin();
   }
 }

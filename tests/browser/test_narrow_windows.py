@@ -17,7 +17,7 @@ def project(tmp_path: Path) -> Path:
     return make_bed(tmp_path, [[ring(350, 200, 60, cut=330), ring(120, 120, 40)]], said=True)
 
 
-def test_what_is_said_of_a_cap_does_not_lie_on_the_zoom_buttons(
+def test_what_is_said_of_a_cap_does_not_lie_on_the_zoom_buttons_nor_a_question_on_the_panel(
     server: Server, open_tab: Callable[..., Tab]
 ) -> None:
     tab = open_tab(server)
@@ -32,3 +32,9 @@ def test_what_is_said_of_a_cap_does_not_lie_on_the_zoom_buttons(
     assert left is not None
     assert right is not None
     assert left["x"] + left["width"] <= right["x"]
+    tab.press("Shift+A")
+    slider = tab.page.get_by_role("dialog").bounding_box()
+    panel = tab.page.locator(".fr-toolbar").bounding_box()
+    assert slider is not None
+    assert panel is not None
+    assert slider["x"] + slider["width"] <= panel["x"]

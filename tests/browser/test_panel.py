@@ -100,6 +100,11 @@ def test_nothing_of_the_panel_is_cut(browser: Browser, server: Server, width: in
     too_wide = f"""() => [...document.querySelectorAll('{words}')]
         .filter((e) => e.checkVisibility() && e.scrollWidth > e.clientWidth).map((e) => e.textContent)"""
     assert tab.page.evaluate(too_wide) == []
+    tab.page.keyboard.down("Shift")
+    tab.click(CAPS[1])
+    tab.page.keyboard.up("Shift")
+    tab.page.locator(".fr-cap").get_by_text("2 selected").wait_for()
+    assert tab.page.evaluate(too_wide) == []
     outside = """() => [...document.querySelectorAll('[data-dock-scroll] :is(button, input, select)')]
         .filter((e) => e.checkVisibility() && e.getBoundingClientRect().right > innerWidth).length"""
     assert tab.page.evaluate(outside) == 0

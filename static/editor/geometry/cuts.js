@@ -5,7 +5,7 @@
  */
 
 import { areaOfRing, hundredths, insideRing, measure, newCap } from "./caps.js";
-import { meeting, stretch, verticesAhead } from "./places.js";
+import { crossingWith, lengthOf, meeting, stretch, verticesAhead } from "./places.js";
 import { areaOf, closedUp, together } from "./regions.js";
 import { simplified } from "./strokes.js";
 import { FEWEST } from "./vertices.js";
@@ -17,48 +17,67 @@ import { FEWEST } from "./vertices.js";
 
 /** A piece of less area, px², is a slip of the hand. */
 const LEAST_AREA = 4;
+/** So near to the rim, as a share of the width of a cap, a stroke may end inside it and is drawn on. */
+const NEAR_RIM = 0.25;
+/** It is drawn on as its last piece runs, which is so much of it. */
+const LAST_PIECE = 0.25;
 /** Gaps up to this wide, image pixels, are closed where caps become one. */
 export const GAP_PX = 6;
 
 /**
- * The two caps that a stroke across one makes of it, the larger first; null where it does not cross one part of
- * the visible outline. The larger keeps everything else that is known of the cap, but a mark stays with the piece that its
- * centre lies in.
+ * The two caps that a stroke across one makes of it, the larger first, and how long the cut is; null where it does not
+ * cross one part of the visible outline. An end that lies inside, but near the rim, is drawn on to it. The larger keeps
+ * everything else that is known of the cap, but a mark stays with the piece that its centre lies in.
  *
  * @param {Cap} cap
  * @param {Point[]} stroke
  * @param {{reach: number, tolerance: number}} how  image pixels
- * @returns {[Cap, Cap] | null}
+ * @returns {{caps: [Cap, Cap], length: number} | null}
  */
 export function splitCap(cap, stroke, { reach, tolerance }) {
   for (const [i, ring] of cap.visible.entries()) {
-    const pieces = splitRing(ring, stroke, reach, tolerance);
-    if (!pieces) continue;
+    const split = splitRing(ring, stroke, reach, tolerance);
+    if (!split) continue;
     const others = cap.visible.filter((_, k) => k !== i);
-    const [large, small] = pieces.sort((a, b) => areaOfRing(b) - areaOfRing(a));
+    const [large, small] = split.pieces.sort((a, b) => areaOfRing(b) - areaOfRing(a));
     const moves = cap.mark !== null && insideRing(small, ...middleOf(cap.mark));
-    return [
-      { ...cap, visible: [large, ...others], mark: moves ? null : cap.mark },
-      newCap({ visible: [small], mark: moves ? cap.mark : null, category: cap.category, ...saidOf(cap) }),
-    ];
+    const larger = { ...cap, visible: [large, ...others], mark: moves ? null : cap.mark };
+    const mark = moves ? cap.mark : null;
+    const smaller = newCap({ visible: [small], mark, category: cap.category, ...saidOf(cap) });
+    return { caps: [larger, smaller], length: split.length };
   }
   return null;
 }
 
-/** @type {(ring: number[], stroke: Point[], reach: number, tolerance: number) => [number[], number[]] | null} */
+/** @type {(ring: number[], stroke: Point[], reach: number, tolerance: number) => {pieces: [number[], number[]], length: number} | null} */
 function splitRing(ring, stroke, reach, tolerance) {
-  const met = meeting(ring, stroke, reach);
+  const met = meeting(ring, drawnOn(ring, drawnOn(ring, stroke).toReversed()).toReversed(), reach);
   if (!met) return null;
   const { start, end, between } = met;
   const ahead = verticesAhead(ring, start, end);
   const line = simplified([start.point, ...between, end.point], tolerance);
   const inside = line.slice(1, -1);
-  const pieces = [
+  const [one, other] = [
     [...stretch(ring, start, end, ahead), ...inside.toReversed()],
     [...stretch(ring, end, start, ring.length / 2 - ahead), ...inside],
   ].map((points) => points.flatMap(([x, y]) => [hundredths(x), hundredths(y)]));
-  const whole = pieces.every((piece) => piece.length / 2 >= FEWEST && areaOfRing(piece) >= LEAST_AREA);
-  return whole ? [pieces[0], pieces[1]] : null;
+  const whole = [one, other].every((piece) => piece.length / 2 >= FEWEST && areaOfRing(piece) >= LEAST_AREA);
+  return whole ? { pieces: [one, other], length: lengthOf(line) } : null;
+}
+
+/**
+ * A stroke that ends inside a ring, drawn straight on to the rim where that is near; else as it is.
+ *
+ * @type {(ring: number[], stroke: Point[]) => Point[]}
+ */
+function drawnOn(ring, stroke) {
+  const [x, y] = stroke[stroke.length - 1];
+  const [fx, fy] = stroke[Math.floor((1 - LAST_PIECE) * (stroke.length - 1))];
+  const length = Math.hypot(x - fx, y - fy);
+  if (length === 0 || !insideRing(ring, x, y)) return stroke;
+  const far = (NEAR_RIM * 2 * Math.sqrt(areaOfRing(ring) / Math.PI)) / length;
+  const rim = crossingWith(ring, [x, y], [x + far * (x - fx), y + far * (y - fy)]);
+  return rim ? [...stroke, rim] : stroke;
 }
 
 /** What was said of pieces of a rim stays with them; the server drops it where they are not. @type {(cap: Cap) => Partial<Cap>} */

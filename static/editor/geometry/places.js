@@ -65,6 +65,14 @@ function firstCrossing(ring, stroke, longest) {
   return null;
 }
 
+/** Where a straight line from inside a ring leaves it; null where it does not. @type {(ring: number[], from: Point, to: Point) => Point | null} */
+export function crossingWith(ring, from, to) {
+  const found = Array.from({ length: ring.length / 2 }, (_, index) => {
+    return crossingOf(from, to, vertex(ring, index), vertex(ring, index + 1));
+  }).filter((point) => point !== null);
+  return found.sort((a, b) => distance(from, a) - distance(from, b))[0] ?? null;
+}
+
 /** How many vertices come after one place before another, in the order of the ring. @type {(ring: number[], from: Place, to: Place) => number} */
 export function verticesAhead(ring, from, to) {
   const count = ring.length / 2;
@@ -85,7 +93,7 @@ export function lengthOf(line) {
 }
 
 /** @type {(a: Point, b: Point) => number} */
-function distance(a, b) {
+export function distance(a, b) {
   return Math.hypot(a[0] - b[0], a[1] - b[1]);
 }
 

@@ -6,7 +6,7 @@
  */
 
 import { areaOfRing, ringsOf, withRings } from "./caps.js";
-import { lengthOf, meeting, stretch, verticesAhead } from "./places.js";
+import { distance, lengthOf, meeting, stretch, verticesAhead } from "./places.js";
 import { distanceToEdge, simplified } from "./strokes.js";
 import { FEWEST } from "./vertices.js";
 
@@ -23,8 +23,28 @@ import { FEWEST } from "./vertices.js";
 
 /** A stroke runs along the longer of two stretches where it is so much nearer to that, in distances. */
 const NEARER = 0.5;
+/** A rim that is far off may be as far away from a stroke along the true one, in radii. */
+const OFF = 0.37;
+/** A stroke that bends away from a cap is so much less likely to be about it. */
+const AWAY = 2;
+/** A bend of less than this, as a share of the square over the chord, is none. */
+const LEAST_BEND = 0.02;
+/** A stroke whose ends are so much farther from a rim than it is long between is about something else. */
+const MOSTLY_BESIDE = 2;
+/** So many points of a stroke tell how it runs. */
+const LOOKED_AT = 32;
 /** An outline of less area, px², is none. */
 const LEAST_AREA = 1;
+
+/**
+ * What a stroke would do to a ring.
+ *
+ * @typedef {Object} Redrawing
+ * @property {Point[]} replaced  the stretch of the rim that gives way to the stroke
+ * @property {Point[]} kept  the other one
+ * @property {Point[]} line  the stroke, from rim to rim
+ * @property {number} beside  how far the stroke is from being about this ring, image pixels
+ */
 
 /**
  * The cap with a stretch of its visible outline (of its polygon mark, where nothing is visible) redrawn; null
@@ -36,35 +56,64 @@ const LEAST_AREA = 1;
  * @returns {Cap | null}
  */
 export function redrawnCap(cap, stroke, how) {
-  const rings = ringsOf(cap);
-  const parts = cap.visible.length || rings.length;
-  for (let i = 0; i < parts; i++) {
-    const ring = redrawnRing(rings[i], stroke, how);
-    if (ring) return withRings(cap, rings.with(i, ring));
-  }
-  return null;
+  const found = redrawingOf(cap, stroke, how);
+  const ring = found && redrawnBy(found.redrawing, how);
+  return ring ? withRings(cap, ringsOf(cap).with(found.part, ring)) : null;
+}
+
+/**
+ * Which part of a cap a stroke is about, and what it would do to that; null where it is about none.
+ *
+ * @type {(cap: Cap, stroke: Point[], how: How) => {part: number, redrawing: Redrawing} | null}
+ */
+export function redrawingOf(cap, stroke, how) {
+  const rings = ringsOf(cap).slice(0, cap.visible.length || undefined);
+  const found = rings.flatMap((ring, part) => {
+    const redrawing = redrawingOfRing(ring, stroke, how);
+    return redrawing ? [{ part, redrawing }] : [];
+  });
+  return found.sort((a, b) => a.redrawing.beside - b.redrawing.beside)[0] ?? null;
 }
 
 /**
  * The ring with the stretch between the ends of the stroke redrawn: the shorter one, unless the stroke runs
  * along the longer.
  *
- * @param {number[]} ring
- * @param {Point[]} stroke
- * @param {How} how
- * @returns {number[] | null}
+ * @type {(ring: number[], stroke: Point[], how: How) => number[] | null}
  */
-export function redrawnRing(ring, stroke, { reach, tolerance, other = false, along = asItIs }) {
-  const met = meeting(ring, stroke, reach);
+export function redrawnRing(ring, stroke, how) {
+  const found = redrawingOfRing(ring, stroke, how);
+  return found && redrawnBy(found, how);
+}
+
+/** @type {(ring: number[], stroke: Point[], how: How) => Redrawing | null} */
+function redrawingOfRing(ring, stroke, { reach, other = false }) {
+  const radius = Math.sqrt(areaOfRing(ring) / Math.PI);
+  const met = meeting(ring, stroke, Math.max(reach, OFF * radius));
   if (!met) return null;
   const { start, end, between } = met;
+  const line = [start.point, ...between, end.point];
+  const ends = distance(stroke[0], start.point) + distance(stroke[stroke.length - 1], end.point);
+  if (ends > MOSTLY_BESIDE * lengthOf(line)) return null;
   const ahead = verticesAhead(ring, start, end);
-  const forwards = stretch(ring, start, end, ahead);
-  const backwards = stretch(ring, end, start, ring.length / 2 - ahead).reverse();
-  const first = isReplaced(forwards, backwards, between) !== other;
-  const line = along(simplified([start.point, ...between, end.point], tolerance));
-  const [kept, drawn] = first ? [backwards, line] : [forwards, line];
-  const points = [...drawn, ...kept.slice(1, -1).reverse()];
+  const ways = [
+    stretch(ring, start, end, ahead),
+    stretch(ring, end, start, ring.length / 2 - ahead).reverse(),
+  ];
+  const some = every(between, Math.ceil(between.length / LOOKED_AT));
+  const meant = isReplaced(ways[0], ways[1], some) ? 0 : 1;
+  const replaced = other ? 1 - meant : meant;
+  return {
+    replaced: ways[replaced],
+    kept: ways[1 - replaced],
+    line,
+    beside: ends + strayingFrom(ways[meant], some),
+  };
+}
+
+/** @type {(redrawing: Redrawing, how: How) => number[] | null} */
+function redrawnBy({ line, kept }, { tolerance, along = asItIs }) {
+  const points = [...along(simplified(line, tolerance)), ...kept.slice(1, -1).reverse()];
   const made = points.flatMap(([x, y]) => [x, y]);
   return points.length >= FEWEST && areaOfRing(made) >= LEAST_AREA ? made : null;
 }
@@ -78,14 +127,47 @@ function asItIs(line) {
 function isReplaced(first, second, between) {
   const shorter = lengthOf(first) <= lengthOf(second);
   const [short, long] = shorter ? [first, second] : [second, first];
-  const alongTheLonger = meanDistance(between, long) < NEARER * meanDistance(between, short);
+  const alongTheLonger = mean(distances(between, long)) < NEARER * mean(distances(between, short));
   return shorter !== alongTheLonger;
 }
 
-/** @type {(points: Point[], line: Point[]) => number} */
-function meanDistance(points, line) {
-  const distances = points.map((point) =>
+/**
+ * How little a stroke runs along a stretch: how far it is from it, and how unevenly; more where it bends the other
+ * way, as a stroke along the rim of another cap does.
+ *
+ * @type {(stretch: Point[], between: Point[]) => number}
+ */
+function strayingFrom(stretch, between) {
+  const all = distances(between, stretch);
+  const uneven = Math.max(...all) - Math.min(...all);
+  const [rim, stroke] = [bendOf(stretch), bendOf(between)];
+  const away = Math.sign(rim) !== Math.sign(stroke) && Math.abs(stroke) > LEAST_BEND;
+  return (away ? AWAY : 1) * (mean(all) + uneven);
+}
+
+/** The area between a line and its chord, as a share of the square over that: above zero on one side. @type {(line: Point[]) => number} */
+function bendOf(line) {
+  const [[fx, fy], to] = [line[0], line[line.length - 1]];
+  const twice = line.reduce((sum, [x, y], i) => {
+    const [nx, ny] = line[(i + 1) % line.length];
+    return sum + (x - fx) * (ny - fy) - (nx - fx) * (y - fy);
+  }, 0);
+  return twice / 2 / Math.max(distance([fx, fy], to) ** 2, 1);
+}
+
+/** @type {(points: Point[], line: Point[]) => number[]} */
+function distances(points, line) {
+  return points.map((point) =>
     line.slice(1).reduce((best, to, i) => Math.min(best, distanceToEdge(point, line[i], to)), Infinity),
   );
-  return distances.reduce((sum, each) => sum + each, 0) / distances.length;
+}
+
+/** @type {(numbers: number[]) => number} */
+function mean(numbers) {
+  return numbers.reduce((sum, each) => sum + each, 0) / numbers.length;
+}
+
+/** Every so manieth of some points. @type {(points: Point[], step: number) => Point[]} */
+function every(points, step) {
+  return points.filter((_, i) => i % step === 0);
 }

@@ -25,7 +25,6 @@ import {
 import { acceptFrom, check, goToOpen, ignoreBuds } from "./actions/walking.js";
 import { commandOfLayer } from "./keys.js";
 
-/** @typedef {import("../state/editor_state.js").EditorState} EditorState */
 /** @typedef {import("./actions/context.js").Action} Action */
 
 /** @type {Record<string, Action>} */
@@ -35,8 +34,8 @@ export const ACTIONS = {
   fit: ({ state }) => state.viewport.showAll(),
   zoom_selection: ({ state }) =>
     state.selection.uids.size ? state.reveal({ close: true }) : state.viewport.showAll(),
-  zoom_in: ({ state }) => zoom(state, 1.25),
-  zoom_out: ({ state }) => zoom(state, 0.8),
+  zoom_in: ({ state }) => state.viewport.zoomBy(1.25),
+  zoom_out: ({ state }) => state.viewport.zoomBy(0.8),
   delete: ({ state, tool }) => tool().back?.() || deleteMeant(state),
   finish: ({ finish }) => finish(),
   cancel,
@@ -107,8 +106,3 @@ for (const [name, dx, dy] of /** @type {[string, number, number][]} */ ([
 }
 
 for (const { name } of DECLARED.layers) ACTIONS[commandOfLayer(name)] = ({ toggle }) => toggle(name);
-
-/** @type {(state: EditorState, factor: number) => void} */
-function zoom({ viewport }, factor) {
-  viewport.zoomAt(viewport.size.width / 2, viewport.size.height / 2, factor);
-}

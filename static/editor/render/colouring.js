@@ -11,19 +11,23 @@
 export const RAMP = ["#ff6a3d", "#ffb26b", "#fff0b8", "#9fd8ff", "#4fb0ff"];
 const WIDEST = 3.5;
 const USUAL = 1.5;
-/** Scores from here on are shown; and from here on a centre is no longer known, in diameters. */
+/** Scores from here on are shown; worse an outline is as bad as any; and from here on a centre is no longer known, in diameters. */
 const LEAST_SCORE = 0.3;
+const LEAST_QUALITY = 0.5;
 const UNSURE = 0.05;
 
 /** What the ends of the ramp mean. @type {Record<Exclude<Colouring, "none">, [string, string]>} */
 export const ENDS = {
   score: [`score ${LEAST_SCORE}`, "score 1"],
+  quality: [`IoU ${LEAST_QUALITY} expected`, "IoU 1"],
   sure: [`centre ± ${100 * UNSURE} % of the width and more`, "± 0 %"],
 };
 
 /** How good a cap is by this figure, 0 to 1; null where that is not known. @type {(shape: Shape, by: Colouring) => number | null} */
-export function goodness({ score, sd, whole }, by) {
-  if (by === "score") return score === null ? null : clamped((score - LEAST_SCORE) / (1 - LEAST_SCORE));
+export function goodness({ score, doubt, sd, whole }, by) {
+  if (by === "score") return score === null ? null : above(LEAST_SCORE, score);
+  // Of an open prediction that is what its outline is expected to miss; what people agreed on has no such figure.
+  if (by === "quality") return score === null ? null : above(LEAST_QUALITY, 1 - doubt);
   if (by !== "sure" || !sd || !whole) return null;
   const width = 2 * (whole.kind === "circle" ? whole.r : Math.sqrt(whole.a * whole.b));
   return clamped(1 - Math.max(...sd) / width / UNSURE);
@@ -33,6 +37,11 @@ export function goodness({ score, sd, whole }, by) {
 export function lineOf(goodness) {
   const colour = RAMP[Math.min(Math.floor(goodness * RAMP.length), RAMP.length - 1)];
   return { colour, width: USUAL + (1 - goodness) * (WIDEST - USUAL) };
+}
+
+/** Where a figure lies between the least that counts and 1. @type {(least: number, figure: number) => number} */
+function above(least, figure) {
+  return clamped((figure - least) / (1 - least));
 }
 
 /** @type {(value: number) => number} */

@@ -8,6 +8,9 @@
 export const CASING = "rgba(8, 12, 20, 0.6)";
 export const SHADE = "rgba(8, 12, 20, 0.85)";
 
+/** Over a line that is to go. */
+export const FADED = "rgba(58, 72, 88, 0.75)";
+
 export const COLOURS = {
   outline: "#45c8ff",
   checked: "#45c8ff",

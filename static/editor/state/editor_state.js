@@ -42,7 +42,7 @@ export class EditorState {
   halfDrawn = new HalfDrawn();
   layers = new Layers();
   look = new PhotoLook();
-  viewport = new Viewport(() => this.signals.overlay.emit());
+  viewport = new Viewport((how) => this.#viewMoved(how));
   /** A reviewer looks at what differs: nobody is expected to lay caps over those that are there. */
   reviewing = false;
   /** What the server said last about an outline. @type {Fitted | null} */
@@ -80,6 +80,12 @@ export class EditorState {
       this.signals.shapes.emit([...before, ...after].flatMap((uid) => this.items.get(uid) ?? []));
       this.signals.selection.emit();
     });
+  }
+
+  /** Where the photo moves by itself under the pointer, that is on another cap than it was. @type {(how: {led: boolean}) => void} */
+  #viewMoved({ led }) {
+    if (!led) this.selection.hover(null);
+    this.signals.overlay.emit();
   }
 
   /** @type {(changes: Change[]) => void} */

@@ -14,7 +14,7 @@ import { signal } from "./signal.js";
  * @property {"all" | "red" | "green" | "blue"} channel
  * @property {boolean} local  contrast evened out from place to place
  * @property {boolean} loupe
- * @property {"none" | "score" | "sure"} colouring
+ * @property {"none" | "score" | "quality" | "sure"} colouring
  */
 
 /** @type {Readonly<Look>} */

@@ -43,7 +43,7 @@ export class Viewport {
   #looks = new Map();
   #moved;
 
-  /** @param {() => void} moved  another part of the photo is to be seen */
+  /** @param {(how: {led: boolean}) => void} moved  another part of the photo is to be seen; `led` by the pointer, which stays where it is on the photo */
   constructor(moved) {
     this.#moved = moved;
   }
@@ -93,21 +93,31 @@ export class Viewport {
     this.#show({ scale, x: this.size.width / 2 - x, y: this.size.height / 2 - y });
   }
 
-  /** @type {(view: View, how?: {all: boolean}) => void} */
-  #show(view, { all } = { all: false }) {
+  /** @type {(view: View, how?: {all?: boolean, led?: boolean}) => void} */
+  #show(view, { all = false, led = false } = {}) {
     this.#showsAll = all;
     this.view = onDevicePixels(view, globalThis.devicePixelRatio ?? 1);
-    this.#moved();
+    this.#moved({ led });
   }
 
   /** @type {(dx: number, dy: number) => void} */
   panBy(dx, dy) {
-    this.#show(panned(this.view, dx, dy));
+    this.#show(panned(this.view, dx, dy), { led: true });
   }
 
-  /** @type {(x: number, y: number, factor: number) => void} */
+  /** Zooms where the pointer is. @type {(x: number, y: number, factor: number) => void} */
   zoomAt(x, y, factor) {
-    this.#show(zoomed(this.view, { x, y, factor, smallest: this.#viewOfAll().scale / 4 }));
+    this.#show(this.#zoomed(x, y, factor), { led: true });
+  }
+
+  /** Zooms in the middle of the window. @type {(factor: number) => void} */
+  zoomBy(factor) {
+    this.#show(this.#zoomed(this.size.width / 2, this.size.height / 2, factor));
+  }
+
+  /** @type {(x: number, y: number, factor: number) => View} */
+  #zoomed(x, y, factor) {
+    return zoomed(this.view, { x, y, factor, smallest: this.#viewOfAll().scale / 4 });
   }
 
   /** Shows the whole photo. */

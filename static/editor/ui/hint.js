@@ -6,7 +6,7 @@ const NEAR_PX = 80;
 
 /** What is said of each tool. @type {Map<string, string>} */
 const HINTS = new Map(
-  DECLARED.groups.flatMap(({ commands }) => commands).flatMap(({ name, ...rest }) => {
+  [...DECLARED.groups.flatMap(({ commands }) => commands), ...DECLARED.held].flatMap(({ name, ...rest }) => {
     return "hint" in rest ? [[name, String(rest.hint)]] : [];
   }),
 );

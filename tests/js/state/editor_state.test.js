@@ -269,3 +269,17 @@ test("every image is found again as it was left", () => {
   state.open({ image, annotations: [], predictions: [], run: null, unchecked: [] });
   assert.deepEqual(viewport.view, left);
 });
+
+test("a cap that the pointer was on is not pointed at once a key has moved the photo; panned or zoomed by the pointer it is", () => {
+  const { state } = openState({ shapes: [U] });
+  state.viewport.resize({ width: 1000, height: 800 });
+  const { viewport, selection } = state;
+  const after = (/** @type {() => void} */ move) => {
+    selection.hover("u");
+    move();
+    return selection.hovered;
+  };
+  const led = [() => viewport.panBy(30, 0), () => viewport.zoomAt(100, 100, 2)];
+  const alone = [() => viewport.zoomBy(2), () => viewport.showAll()];
+  assert.deepEqual([...led, ...alone].map(after), ["u", "u", null, null]);
+});

@@ -35,7 +35,7 @@ const RESTS_MS = 20;
 /** From so long on it is said that the network is still at it. */
 const LONG_MS = 300;
 
-const NONE_THERE = "The network sees no cap there.";
+const NONE_THERE = "The network sees no cap there. A box around it may tell, or C draws it.";
 
 /** @implements {Tool} */
 export class PointTool {

@@ -97,7 +97,7 @@ export class PolygonTool {
   /** @type {(press: Press) => void} */
   down(press) {
     const drawn = this.#drawn;
-    if (drawn.empty) this.#state.select([]);
+    if (drawn.empty && this.partOf === null) this.#state.select([]);
     this.#before = drawn.points.length;
     // The second press of a double click, or a hand that shakes, means the point that is there.
     this.#placed = this.#fromPoint(-1, press) > CLICK_PX;
@@ -189,7 +189,7 @@ export class PolygonTool {
     const shape = change.before ? change.after : this.#cutAtNeighbours(change.after);
     this.#state.select([shape.uid]);
     this.#state.signals.draft.emit(shape);
-    this.#state.signals.drawn.emit(shape);
+    if (!change.before) this.#state.signals.drawn.emit(shape);
     return true;
   }
 

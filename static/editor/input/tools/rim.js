@@ -10,10 +10,10 @@
 import { boundsOfPoints, grown } from "../../geometry/bounds.js";
 import { leftOf, snapped } from "../../geometry/borders.js";
 import { areaOf, without } from "../../geometry/regions.js";
-import { redrawnCap } from "../../geometry/rims.js";
+import { redrawingOf, redrawnCap } from "../../geometry/rims.js";
 import { isPrediction, withCap } from "../../geometry/shapes.js";
 import { changed } from "../../state/changes.js";
-import { StrokeTool, meantBy } from "./stroke.js";
+import { StrokeTool, aroundStroke } from "./stroke.js";
 import { STRAYS_PX } from "./tool.js";
 
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
@@ -35,7 +35,7 @@ const ELSEWHERE = "A stroke begins and ends on the rim that it changes.";
 export function rimTool(state, say) {
   return new StrokeTool(state, say, {
     name: "rim",
-    elsewhere: ELSEWHERE,
+    without: () => ELSEWHERE,
     effect: (stroke, other) => redrawn(state, stroke, other),
     meant: (point) => withRimAt(state, point),
   });
@@ -51,16 +51,32 @@ function withRimAt(state, point) {
 function redrawn(state, stroke, other) {
   const { scale } = state.viewport.view;
   const how = { reach: REACH_PX / scale, tolerance: STRAYS_PX / scale, other };
-  for (const before of meantBy(state, stroke, how.reach)) {
-    const neighbours = neighboursOf(state, before, stroke);
-    const rims = neighbours.flatMap(({ cap }) => cap.visible);
-    const cap = redrawnCap(before.cap, stroke, { ...how, along: (line) => snapped(line, rims, SNAP_PX / scale) });
-    if (!cap) continue;
-    const losses = lossesOf(neighbours, without(cap.visible, before.cap.visible));
-    const note = losses.length ? `takes from ${losses.length === 1 ? "its neighbour" : "its neighbours"}` : "";
-    return { changes: [changed(before, withCap(before, cap)), ...losses], note };
-  }
-  return null;
+  const before = meantBy(state, stroke, how);
+  if (!before) return null;
+  const neighbours = neighboursOf(state, before, stroke);
+  const rims = neighbours.flatMap(({ cap }) => cap.visible);
+  const cap = redrawnCap(before.cap, stroke, { ...how, along: (line) => snapped(line, rims, SNAP_PX / scale) });
+  if (!cap) return null;
+  const losses = lossesOf(neighbours, without(cap.visible, before.cap.visible));
+  const note = losses.length ? `takes from ${losses.length === 1 ? "its neighbour" : "its neighbours"}` : "";
+  const { replaced } = redrawingOf(before.cap, stroke, how)?.redrawing ?? { replaced: [] };
+  return { changes: [changed(before, withCap(before, cap)), ...losses], replaced, note };
+}
+
+/**
+ * The cap that a stroke is about: the selected one, else of those around it the one to whose rim both ends are
+ * nearest and along which the stroke runs.
+ *
+ * @type {(state: EditorState, stroke: Point[], how: import("../../geometry/rims.js").How) => Shape | null}
+ */
+function meantBy(state, stroke, how) {
+  const { sole } = state;
+  if (sole && redrawingOf(sole.cap, stroke, how)) return sole;
+  const found = aroundStroke(state, stroke, how.reach).flatMap((shape) => {
+    const about = redrawingOf(shape.cap, stroke, how);
+    return about ? [{ shape, beside: about.redrawing.beside }] : [];
+  });
+  return found.sort((a, b) => a.beside - b.beside)[0]?.shape ?? null;
 }
 
 /** The caps that a cap may meet when it is redrawn along a stroke. @type {(state: EditorState, shape: Shape, stroke: Point[]) => Shape[]} */

@@ -4,8 +4,9 @@
  * @module
  */
 
-import { hundredths } from "../../geometry/caps.js";
-import { CASING, COLOURS } from "../../render/palette.js";
+import { boundsOfPoints, contains, grown } from "../../geometry/bounds.js";
+import { hundredths, measure } from "../../geometry/caps.js";
+import { CASING, COLOURS, FADED, FILLS } from "../../render/palette.js";
 import { strokeCased, traceRing, writeCentred } from "../../render/paths.js";
 import { toScreen } from "../../geometry/view.js";
 import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
@@ -19,19 +20,22 @@ import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
 
 /** Points of a stroke lie so far apart, CSS pixels. */
 const STEP_PX = 2;
+/** So far beside a cap a stroke may run that is about it, as a share of its width. */
+const BESIDE = 0.2;
 
 /**
  * What a stroke does.
  *
  * @typedef {Object} Effect
- * @property {Change[]} changes
+ * @property {Change[]} changes  that of the cap which the stroke is about comes first
+ * @property {Point[]} replaced  what of its rim gives way to the stroke
  * @property {string} note  in a few words, where they are needed; else ""
  */
 
 /**
  * @typedef {Object} Meaning
  * @property {string} name  of the tool
- * @property {string} elsewhere  said of a stroke that does nothing
+ * @property {(stroke: Point[]) => string} without  what is said of a stroke that does nothing
  * @property {(stroke: Point[], other: boolean) => Effect | null} effect  `other`: Alt is held
  * @property {(point: Point) => Shape | null} meant  the cap that a stroke which begins there is for
  */
@@ -92,6 +96,8 @@ export class StrokeTool {
     const at = this.#inPhoto(press);
     this.#other = press.alt;
     if (apart(last, at) >= this.#pixels(STEP_PX)) this.#stroke.push(at);
+    // From here on the stroke itself tells which cap it is about.
+    if (this.#stroke.length > 2) this.#state.selection.hover(null);
     this.#state.signals.overlay.emit();
   }
 
@@ -112,14 +118,14 @@ export class StrokeTool {
 
   /** Ends the stroke as letting go would. */
   leave() {
-    const drawn = this.#stroke.length > 2;
+    const stroke = this.#stroke;
     const effect = this.#effect();
     this.#forget();
     if (effect) {
       const [{ after }] = effect.changes;
       this.#state.commit(effect.changes);
       this.#state.select([after.uid]);
-    } else if (drawn) this.#say(this.#meaning.elsewhere);
+    } else if (stroke.length > 2) this.#say(this.#meaning.without(stroke));
   }
 
   #forget() {
@@ -144,10 +150,11 @@ export class StrokeTool {
     return this.#start !== null;
   }
 
-  /** What would become of the caps, dashed, under the stroke. @type {import("../../render/overlay.js").Sketch} */
+  /** The cap that the stroke is about, what would become of the caps, dashed, and the stroke upon it. @type {import("../../render/overlay.js").Sketch} */
   sketch = (context, view) => {
     if (this.#stroke.length < 2) return false;
     const effect = this.#effect();
+    if (effect) drawGivingWay(context, view, effect);
     context.beginPath();
     for (const { after } of effect?.changes ?? [])
       for (const ring of after.cap.visible) traceRing(context, view, ring);
@@ -167,13 +174,40 @@ export class StrokeTool {
   };
 }
 
+/** Fills the cap that a stroke is about, and has the piece of its rim that is to go fade. @type {(context: CanvasRenderingContext2D, view: import("../../geometry/view.js").View, effect: Effect) => void} */
+function drawGivingWay(context, view, { changes: [{ before }], replaced }) {
+  context.beginPath();
+  for (const ring of before?.cap.visible ?? []) traceRing(context, view, ring);
+  context.fillStyle = FILLS.selected;
+  context.fill();
+  context.beginPath();
+  traceRing(context, view, replaced.flat(), false);
+  context.lineWidth = 2.5;
+  context.strokeStyle = FADED;
+  context.stroke();
+}
+
 /**
- * The caps that a stroke may mean: the selected one, those it begins at, those it runs through.
+ * The visible caps that a stroke may be about, those whose rim is nearest to its beginning first: both of its ends lie
+ * on or near them, or its middle.
  *
  * @type {(state: EditorState, stroke: Point[], reach: number) => Shape[]}
  */
-export function meantBy(state, stroke, reach) {
-  const [first, middle] = [stroke[0], stroke[stroke.length >> 1]];
-  const all = [state.sole, ...state.rimsNear(first, reach), state.at(first, 0), state.at(middle, 0)];
-  return all.filter((shape) => shape !== null);
+export function aroundStroke(state, stroke, reach) {
+  const bounds = boundsOfPoints(stroke.flat());
+  const all = [...state.rimsNear(stroke[0], reach), ...state.near(grown(bounds, reach + longerSide(bounds) / 2))];
+  const [first, middle, last] = [stroke[0], stroke[stroke.length >> 1], stroke[stroke.length - 1]];
+  const meant = all.filter(({ cap }) => {
+    const own = measure(cap).bounds;
+    if (!own) return false;
+    const around = grown(own, Math.max(reach, BESIDE * longerSide(own)));
+    const holds = (/** @type {Point} */ [x, y]) => contains(around, { x0: x, y0: y, x1: x, y1: y });
+    return holds(middle) || (holds(first) && holds(last));
+  });
+  return [...new Map(meant.map((shape) => [shape.uid, shape])).values()];
+}
+
+/** @type {(bounds: import("../../geometry/bounds.js").Bounds) => number} */
+function longerSide({ x0, y0, x1, y1 }) {
+  return Math.max(x1 - x0, y1 - y0);
 }

@@ -174,15 +174,20 @@ test("a freehand outline keeps the points that the eye tells apart, and stays wi
   }
 });
 
-test("the part that is drawn of a cap becomes one of its parts", () => {
+test("the part that is drawn of a cap, which stays selected meanwhile, becomes one of its parts; nothing is offered for it", () => {
   const shape = storedShape("u", capOf(FIVE.flat()));
   const { state, committed } = openState({ shapes: [shape] });
   const tool = new PolygonTool(state, () => {});
   const hand = handOf(state, tool);
+  let offered = 0;
+  state.signals.drawn.listen(() => void offered++);
+  state.select(["u"]);
   tool.partOf = "u";
   for (const [x, y] of FIVE) hand.click([x + 200, y]);
+  assert.equal(state.sole?.uid, "u");
   tool.finish();
   assert.deepEqual(committed.flat().map(({ after }) => [after.uid, after.cap.visible.length]), [["u", 2]]);
+  assert.equal(offered, 0);
   for (const [x, y] of FIVE) hand.click([x + 400, y]);
   tool.finish();
   assert.equal(state.items.all.length, 2);

@@ -4,6 +4,7 @@ import test from "node:test";
 import { areaOfRing, polygonOfCircle } from "../../../../static/editor/geometry/caps.js";
 import { areaOf, shared } from "../../../../static/editor/geometry/regions.js";
 import { rimTool } from "../../../../static/editor/input/tools/rim.js";
+import { FADED } from "../../../../static/editor/render/palette.js";
 import { SelectTool } from "../../../../static/editor/input/tools/select.js";
 import { capOf, prediction } from "../../support/caps.js";
 import { handOf } from "../../support/hand.js";
@@ -200,4 +201,83 @@ test("a stroke that begins and ends beside the rim reaches it: at the nearest pl
   const angle = Math.acos(0.5);
   const segment = 80 ** 2 * (angle - Math.sin(angle) / 2);
   assert.ok(Math.abs(area(through.made()[0].cap.visible) - (area([ROUND]) - segment)) < 40);
+});
+
+/** A cap that was found too small, by a quarter of its true radius of 108, and six around it that touch its true rim. */
+function denseSpot() {
+  const around = Array.from({ length: 6 }, (_, i) => {
+    const angle = (i * Math.PI) / 3;
+    const [cx, cy] = [600 + 216 * Math.cos(angle), 500 + 216 * Math.sin(angle)];
+    return storedShape(`around ${i}`, capOf(polygonOfCircle({ kind: "circle", cx, cy, r: 108 })));
+  });
+  const small = storedShape("small", capOf(polygonOfCircle({ kind: "circle", cx: 600, cy: 500, r: 80 })));
+  const { state, committed } = openState({ shapes: [small, ...around] });
+  const tool = rimTool(state, () => {});
+  return { state, tool, hand: handOf(state, tool), meant: () => committed.map(([{ after }]) => after.uid) };
+}
+
+/** Around (600, 500). @type {(radius: number, from: number, to: number) => Point[]} */
+function arcOfSpot(radius, from, to) {
+  return Array.from({ length: Math.floor((to - from) / 2) + 1 }, (_, i) => {
+    const angle = ((from + 2 * i) * Math.PI) / 180;
+    return [600 + radius * Math.cos(angle), 500 + radius * Math.sin(angle)];
+  });
+}
+
+test("a stroke along the true rim of a cap, a third of its radius off, is about that cap, though neighbours touch it there", () => {
+  for (const [from, to] of [
+    [-60, 60],
+    [20, 100],
+    [-30, 30],
+    [0, 300],
+  ]) {
+    for (const zoom of [0.5, 1, 6]) {
+      const { hand, meant, state } = denseSpot();
+      state.viewport.zoomBy(zoom);
+      hand.stroke(arcOfSpot(108, from, to));
+      assert.deepEqual(meant(), ["small"], `${from} to ${to}, ${zoom} times as large`);
+    }
+  }
+});
+
+test("a stroke that bends around a neighbour is about the neighbour, unless another cap is selected", () => {
+  // Along the rim of the one to the right, 4 px inside the gap.
+  const along = /** @type {Point[]} */ (
+    Array.from({ length: 9 }, (_, i) => (Math.PI * (170 + 2.5 * i)) / 180).map((angle) => {
+      return [816 + 112 * Math.cos(angle), 500 + 112 * Math.sin(angle)];
+    })
+  );
+  const { hand, meant, state } = denseSpot();
+  hand.stroke(along);
+  state.select(["small"]);
+  hand.stroke(along);
+  assert.deepEqual(meant(), ["around 0", "small"]);
+});
+
+test("while a stroke is drawn, what of the rim is to go fades, nothing else is lit, and what neighbours lose is said", () => {
+  const { hand, state, tool } = denseSpot();
+  // Out into the neighbour between its ends, which are 24 px off.
+  const [first, ...way] = arcOfSpot(1, 20, 100).map(([x, y], i, all) => {
+    const radius = 104 + 20 * Math.sin((Math.PI * i) / (all.length - 1));
+    return /** @type {Point} */ ([600 + radius * (x - 600), 500 + radius * (y - 500)]);
+  });
+  hand.hover(first);
+  hand.down(first);
+  hand.drag(...way);
+  /** @type {string[]} */
+  const strokes = [];
+  /** @type {string[]} */
+  const words = [];
+  /** @type {{strokeStyle: string, stroke: () => void, fillText: (text: string) => void}} */
+  const context = new Proxy(
+    {
+      strokeStyle: "",
+      stroke: () => void strokes.push(context.strokeStyle),
+      fillText: (/** @type {string} */ text) => void words.push(text),
+    },
+    { get: (own, name) => Reflect.get(own, name) ?? (() => {}) },
+  );
+  tool.sketch(/** @type {any} */ (context), state.viewport.view);
+  assert.deepEqual([strokes.includes(FADED), state.selection.hovered], [true, null]);
+  assert.deepEqual(words, ["takes from its neighbour"]);
 });

@@ -54,3 +54,24 @@ test("a stroke that crosses no cap changes nothing and says so", () => {
   hand.stroke(ACROSS.map(([x, y]) => [x + 200, y]));
   assert.deepEqual([committed.length, said.length], [0, 1]);
 });
+
+test("a stroke that stops far inside a cap changes nothing, and what is said tells why", () => {
+  const { committed, said, hand } = splitting({ shapes: [storedShape("box", capOf(BOX))] });
+  const far = /** @type {Point[]} */ ([[230, 190], [230, 205], [230, 215], [230, 225]]);
+  hand.stroke(far);
+  hand.stroke(far.toReversed());
+  assert.equal(committed.length, 0);
+  assert.match(said[0], /ends far inside/);
+  assert.match(said[1], /begins far inside/);
+});
+
+test("of two caps that a stroke crosses the one is split across which it runs longest, unless one is selected", () => {
+  const low = [200, 260, 300, 260, 300, 290, 200, 290];
+  const shapes = [storedShape("box", capOf(BOX)), storedShape("low", capOf(low))];
+  const way = /** @type {Point[]} */ ([[230, 190], [231, 215], [230, 240], [230, 275], [230, 300]]);
+  const { committed, hand, state } = splitting({ shapes });
+  hand.stroke(way);
+  state.select(["low"]);
+  hand.stroke(way.map(([x, y]) => [x + 40, y]));
+  assert.deepEqual(committed.map((/** @type {any} */ [{ after }]) => after.uid), ["box", "low"]);
+});
