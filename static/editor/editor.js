@@ -101,6 +101,7 @@ export class Editor {
       ...travelIn(state, {
         open: (image) => this.#going.open(image, null),
         say: (text, level) => this.#say(text, level),
+        tell: (text) => this.#say(text, "info", { about: "undo" }),
       }),
     });
     this.#reviewing = new Reviewing(state, send);

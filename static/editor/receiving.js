@@ -17,7 +17,7 @@ import { showJob } from "./ui/job_lines.js";
  * @property {() => void} progress  shows what waits, and the status
  */
 
-/** A button that takes the status of an image back, while that is what was done there last. @type {(sync: import("./sync/sync.js").Sync, image: number | null) => import("./ui/notices.js").Remedy | null} */
+/** A button that takes the status of an image back, while that is what was done there last. @type {(sync: import("./sync/sync.js").Sync, image: number | null) => (import("./ui/notices.js").Remedy & import("./ui/notices.js").Going) | null} */
 function undoing(sync, image) {
   if (image === null || !sync.hasFinished(image)) return null;
   return {

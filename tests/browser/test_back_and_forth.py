@@ -11,6 +11,7 @@ import pytest
 from fairyring.app.bench.browser.tab import Point, Tab
 from fairyring.app.bench.serving import Server
 from tests.support.plain_bed import make_bed, ring
+from tests.support.said import said
 
 MIDDLE, BESIDE = (350, 200), (475, 200)
 
@@ -43,8 +44,10 @@ def test_a_cap_that_took_from_its_neighbour_is_alone_in_hand_after_undo_and_redo
     tab.press("Control+z")
     tab.wait_for("window.fairyring.state.shapes.length === 0")
     assert tab.state("selection") == [uid]
+    said(tab, "Taken back: accepted 2 predictions.")
     tab.press("Control+y")
     tab.wait_for("window.fairyring.state.shapes.length === 2")
+    said(tab, "Done again: accepted 2 predictions.")
     [again] = tab.state("selection")
     kept = tab.shape(again)
     assert kept is not None

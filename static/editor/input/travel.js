@@ -5,6 +5,7 @@
  */
 
 import { uidOfPrediction } from "../geometry/shapes.js";
+import { wordsOfChanges } from "../state/words_of_changes.js";
 
 /** @typedef {import("../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../state/editor_state.js").EditorState} EditorState */
@@ -15,6 +16,7 @@ import { uidOfPrediction } from "../geometry/shapes.js";
 const MOST_SELECTED = 20;
 
 const OUT_OF_SIGHT = "That was out of sight; Z shows it.";
+const DONE = { undo: "Taken back", redo: "Done again" };
 
 /** Why nothing can be taken back or done again. */
 const STUCK = {
@@ -33,8 +35,9 @@ const STUCK = {
  * @param {Object} how
  * @param {(image: number, select: null) => void} how.open
  * @param {(text: string, level?: "info" | "warning") => void} how.say
+ * @param {(text: string) => void} how.tell  in place of what was told before
  */
-export function travelIn(state, { open, say }) {
+export function travelIn(state, { open, say, tell }) {
   /** The one cap that was selected last: what was done to its neighbours on the way was done to it. @type {string | null} */
   let inHand = null;
   state.selection.changed.listen((_before, now) => {
@@ -42,7 +45,9 @@ export function travelIn(state, { open, say }) {
   });
   return {
     /** @type {(travelled: Travelled) => void} */
-    travelled({ image, changes, stayed }) {
+    travelled({ image, way, changes, ofStatus, stayed }) {
+      const words = wordsOfChanges(way === "undo" ? changes.map(turned) : changes, ofStatus);
+      if (words) tell(`${DONE[way]}: ${words}.`);
       if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
       if (image !== state.image?.id) return open(image, null);
       const own = changes.filter(({ before, after }) => [before, after].some((shape) => shape && isOf(shape, inHand)));
@@ -56,6 +61,11 @@ export function travelIn(state, { open, say }) {
     /** @type {(why: keyof typeof STUCK, way: Way) => void} */
     stuck: (why, way) => say(STUCK[why][way], "warning"),
   };
+}
+
+/** As it was done before it was taken back. @type {(change: Travelled["changes"][number]) => import("../state/words_of_changes.js").Became} */
+function turned({ before, after }) {
+  return { before: after, after: before };
 }
 
 /** Whether it is this one, or the annotation of this prediction. @type {(shape: Shape, uid: string | null) => boolean} */
