@@ -16,7 +16,6 @@ from fairyring.storage.project import Project
 
 MOST_CAP_BY_CAP = 6
 """Of so many images at most each cap is plotted, and the photo shown."""
-WORDS = ("marked, with the numbers of the caps", "predicted", "both, with the lines between centres")
 
 
 def image_sections(project: Project, review: Review, figures: dict[str, Any]) -> list[Markup]:
@@ -86,12 +85,19 @@ def _lower_first(sentence: str) -> str:
 
 def _photos(project: Project, review: Review) -> list[Markup]:
     """What was marked, what was predicted, and both."""
+    second = review.second_annotator
+    words = (
+        "marked, with the numbers of the caps",
+        second or "predicted",
+        "both, with the lines between centres",
+    )
     shown = []
     for image in review.images:
-        pictures = zip(WORDS, side_by_side(project, image.id, run=review.run), strict=False)
+        pictures = zip(words, side_by_side(project, image.id, run=review.run), strict=False)
         of_one = (_photo(f"{image.file_name}: {word}", address) for word, address in pictures)
         shown.append(element("section", *of_one, class_="photos"))
-    return [element("h2", "Marked and predicted contours"), *shown] if shown else []
+    title = "Contours of both annotators" if second else "Marked and predicted contours"
+    return [element("h2", title), *shown] if shown else []
 
 
 def _photo(told: str, address: str) -> Markup:

@@ -53,8 +53,11 @@ def cdr_bars(measured: Sequence[Bar], *, what: str, nothing: str = "Nothing was 
     return _figure(caption, WIDTH, height, *_scale(top), *bars, *below)
 
 
-def shifts(found: Sequence[tuple[float, float]]) -> Markup:
-    """A dot for each cap where its predicted centre lies from the marked one; the ellipse holds 95 of 100."""
+def shifts(found: Sequence[tuple[float, float]], *, what: str = "Predicted minus marked centre") -> Markup:
+    """A dot for each cap where its predicted centre lies from the marked one; the ellipse holds 95 of 100.
+
+    ``what`` the dots are, as the caption says it.
+    """
     if len(found) < 3:
         told = "Fewer than three caps were measured, too few to show how centres shift."
         return element("p", told, class_="quiet")
@@ -69,10 +72,7 @@ def shifts(found: Sequence[tuple[float, float]]) -> Markup:
         element("line", y1=0, y2=SIDE, x1=SIDE / 2, x2=SIDE / 2, class_="axis"),
     )
     cross = element("circle", cx=_at(mean[0], scale), cy=_at(mean[1], scale), r=4, class_="mean")
-    caption = (
-        f"Predicted minus marked centre, pixels, edges at ±{reach:.1f}; on the whole "
-        f"Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}."
-    )
+    caption = f"{what}, pixels, edges at ±{reach:.1f}; on the whole Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}."
     if further := len(moves) - len(inside):
         caption += " 1 lies further out." if further == 1 else f" {further} lie further out."
     return _figure(caption, SIDE, SIDE, *axes, *dots, _ellipse(moves, scale), cross)

@@ -80,6 +80,11 @@ class Review:
     repeats: list[RepeatedMark]
     """Caps that somebody marked twice."""
 
+    @property
+    def second_annotator(self) -> str | None:
+        """Whose version stands for predictions, where that is a second annotator's."""
+        return self.run.second_annotator if self.run else None
+
 
 def review_of(
     project: Project,

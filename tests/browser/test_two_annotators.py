@@ -92,10 +92,10 @@ def test_every_number_of_two_annotators_leads_to_the_caps_that_it_counts(
     caps = tab.page.get_by_role("group", name="Caps of all images")
     shown = caps.locator(".fr-gallery button")
     for row, number, count in (
-        ("matched", "4", "1–4 of 4. Annotated and predicted"),
-        ("IoU", "1.000", "1–4 of 4. Annotated and predicted"),
-        ("only the second has (extra)", "1", "1–1 of 1. Predicted, and not annotated."),
-        ("missed by the second", "1", "1–1 of 1. Annotated, and not predicted."),
+        ("matched", "4", "1–4 of 4. The annotations and ben.json have it"),
+        ("IoU", "1.000", "1–4 of 4. The annotations and ben.json have it"),
+        ("only the second has (extra)", "1", "1–1 of 1. In ben.json, and not in the annotations."),
+        ("missed by the second", "1", "1–1 of 1. In the annotations, and not in ben.json."),
     ):
         numbers = table.get_by_role("row", name=row).get_by_role("button", name=number, exact=True)
         expect(numbers).to_have_count(2, timeout=30_000)
@@ -106,11 +106,40 @@ def test_every_number_of_two_annotators_leads_to_the_caps_that_it_counts(
     # Ben left out the second cap of Ada's.
     shown.first.click()
     tab.wait_for(f"window.fairyring.state.selection[0] === {uid_of(1, 1)!r}")
-    tab.page.get_by_text("missed: the second annotator has no such cap").first.wait_for()
+    tab.page.get_by_text("missed: ben.json has no such cap").first.wait_for()
+    tab.page.get_by_label("Selected cap").get_by_text("ben.json has no such cap").wait_for()
+    the_second_annotator_is_named_wherever_it_is_about_theirs(tab)
     bed_1 = tab.page.get_by_role("table", name="Images of two annotators").get_by_role(
         "row", name="bed_1.png"
     )
     bed_1.get_by_role("button", name="1", exact=True).last.click()
-    caps.get_by_text("1–1 of 1. Predicted, and not annotated.").wait_for()
+    caps.get_by_text("1–1 of 1. In ben.json, and not in the annotations.").wait_for()
     caps.get_by_role("button", name="Show all").click()
     caps.get_by_text("Only against").wait_for(state="detached")
+
+
+def the_second_annotator_is_named_wherever_it_is_about_theirs(tab: Tab) -> None:
+    strip, desk = tab.page.locator(".fairyring-review"), tab.page.get_by_role("group", name="Review")
+    for words in ("first annotator’s", "second annotator’s: ben.json", "S Second’s", "U First’s"):
+        strip.get_by_text(words, exact=True).wait_for()
+    desk.get_by_role("button", name="S Second’s").wait_for()
+    desk.get_by_role("button", name="U First’s").wait_for()
+    for title in (
+        "Take the second annotator’s, ben.json: the outline with its mark, the cap, or no cap (S)",
+        "Take the first annotator’s: approve the cap, turn down what ben.json alone has (U)",
+        "Show what was drawn and what ben.json has, or not (Shift+D)",
+    ):
+        desk.get_by_title(title, exact=True).wait_for()
+    expect(desk.get_by_text("Model’s")).to_have_count(0)
+    card = tab.page.get_by_label("Selected cap")
+    tab.press(",")
+    card.get_by_text("Second annotator’s cap").wait_for()
+    strip.get_by_text("extra: only ben.json has it").wait_for()
+    expect(card.get_by_text("Score")).to_have_count(0)
+    card.get_by_role("button", name="Second’s").click()
+    tab.saved()
+    tab.page.get_by_role("tab", name="History").click()
+    tab.page.get_by_text("Rev accepted a cap of ben.json").wait_for()
+    tab.press("Control+z")
+    tab.saved()
+    tab.page.get_by_role("tab", name="Review").click()

@@ -91,7 +91,7 @@
  * @property {number} image
  * @property {ComparedCap[]} caps
  * @property {Annotation[]} turned_down
- * @property {boolean} second
+ * @property {string | null} second
  */
 
 /**
