@@ -7,8 +7,8 @@ from typing import Any
 
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.report.bars import Bar, cdr_bars
 from fairyring.app.report.pictures import side_by_side
-from fairyring.app.report.plots import Bar, cdr_bars
 from fairyring.app.report.tables import number, table
 from fairyring.app.review.figures import Review
 from fairyring.app.review.unmeasured import why_unmeasured
@@ -46,7 +46,7 @@ def _table(images: Sequence[dict[str, Any]]) -> Markup:
         )
         for row in images
     ]
-    return table(head, rows)
+    return element("div", table(head, rows), id="images")
 
 
 def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -> Markup:
@@ -57,7 +57,8 @@ def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -
         if row["cdr"]["mean"] is not None
     ]
     highest_first = sorted(bars, key=lambda bar: bar.cdr, reverse=True)
-    return cdr_bars(highest_first, what="Mean CDR by image", nothing=why_unmeasured(figures))
+    others = element("a", "the table", href="#images")
+    return cdr_bars(highest_first, what="Mean CDR by image", others=others, nothing=why_unmeasured(figures))
 
 
 def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup]:
@@ -74,7 +75,12 @@ def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup
         ]
         of = f"{row['file_name']}: "
         plots.append(
-            cdr_bars(bars, what=f"{of}CDR of each cap", nothing=of + _lower_first(why_unmeasured(row)))
+            cdr_bars(
+                bars,
+                what=f"{of}CDR of each cap",
+                others=element("a", "caps.csv", href="#files"),
+                nothing=of + _lower_first(why_unmeasured(row)),
+            )
         )
     return plots
 

@@ -161,6 +161,7 @@ def _tables_to_download(figures: dict[str, Any], review: Review) -> Markup:
         _download("caps.csv", names, caps),
         " · ",
         _download("verdicts.csv", told, [[entry.get(name, "") for name in told] for entry in said]),
+        id="files",
     )
 
 
