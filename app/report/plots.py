@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from fairyring.app.panels.markup import Markup, element
+from fairyring.app.panels.plotted import further_out
 from fairyring.app.report.drawing import Drawing, figure_of
 from fairyring.model.evaluate.spread import axes_of_spread, reach_of
 
@@ -43,8 +44,8 @@ def drawing_of_shifts(found: Sequence[tuple[float, float]], *, what: str = PREDI
     )
     cross = element("circle", cx=_at(mean[0], scale), cy=_at(mean[1], scale), r=4, class_="mean")
     caption = f"{what}, pixels, edges at ±{reach:.1f}; on the whole Δx {mean[0]:+.2f} and Δy {mean[1]:+.2f}."
-    if further := len(moves) - len(inside):
-        caption += " 1 lies further out." if further == 1 else f" {further} lie further out."
+    if beyond := len(moves) - len(inside):
+        caption += f" {further_out(beyond)}"
     parts = [*axes, *dots, _ellipse(moves, scale), cross]
     return [Drawing(caption=caption, width=SIDE, height=SIDE, parts=parts)]
 
