@@ -79,6 +79,9 @@ def test_the_report_is_printed_with_its_pictures_and_nothing_beyond_the_paper(
     assert page.evaluate("getComputedStyle(document.querySelector('dl')).display") == "flex"
     assert page.evaluate(WIDER) == 0
     page.get_by_text("3 lie further out.").wait_for()
+    assert page.locator(".spread").count() == 1
+    for told in ("(Table 2)", "(Table 3)", "(Table 4)", "mean error, px", "error / diameter, %"):
+        page.get_by_text(told).first.wait_for()
     of_each_cap = page.locator("figure", has_text="dense.png: CDR of each cap")
     bars = [told.split(":")[0] for told in of_each_cap.locator("title").all_text_contents()]
     assert bars == [f"cap {nth}" for nth in range(1, DENSE + 1)], "more than stand in one row"
