@@ -24,7 +24,7 @@ def image_sections(project: Project, review: Review, figures: dict[str, Any]) ->
     few = len(review.images) <= MOST_CAP_BY_CAP
     return [
         element("h2", "Image by image" if len(images) > 1 else "The image"),
-        *([_bars_of_images(images, figures)] if len(images) > 1 else []),
+        *([_bars_of_images(review, images, figures)] if len(images) > 1 else []),
         _table(images),
         *(_cap_by_cap(review, images) if few else []),
         *(_photos(project, review) if few else []),
@@ -49,7 +49,7 @@ def _table(images: Sequence[dict[str, Any]]) -> Markup:
     return element("div", table(head, rows), id="images")
 
 
-def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -> Markup:
+def _bars_of_images(review: Review, images: Sequence[dict[str, Any]], figures: dict[str, Any]) -> Markup:
     """The highest first."""
     bars = [
         Bar(name=row["file_name"], cdr=row["cdr"]["mean"], floor=row["floor"]["cdr_mean"])
@@ -58,7 +58,8 @@ def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -
     ]
     highest_first = sorted(bars, key=lambda bar: bar.cdr, reverse=True)
     others = element("a", "the table", href="#images")
-    return cdr_bars(highest_first, what="Mean CDR by image", others=others, nothing=why_unmeasured(figures))
+    nothing = why_unmeasured(figures, second=review.second_annotator)
+    return cdr_bars(highest_first, what="Mean CDR by image", others=others, nothing=nothing)
 
 
 def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup]:
@@ -79,14 +80,16 @@ def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup
                 bars,
                 what=f"{of}CDR of each cap",
                 others=element("a", "caps.csv", href="#files"),
-                nothing=of + _lower_first(why_unmeasured(row)),
+                nothing=of + _within_sentence(why_unmeasured(row, second=review.second_annotator), review),
             )
         )
     return plots
 
 
-def _lower_first(sentence: str) -> str:
-    return sentence[:1].lower() + sentence[1:]
+def _within_sentence(words: str, review: Review) -> str:
+    """Without a capital in front, unless a name stands there."""
+    is_name = words.startswith(review.second_annotator or "\0")
+    return words if is_name else words[:1].lower() + words[1:]
 
 
 def _photos(project: Project, review: Review) -> list[Markup]:

@@ -111,7 +111,7 @@ def _shifts(review: Review) -> tuple[Markup, Markup]:
 def _gallery(project: Project, review: Review, figures: dict[str, Any]) -> Markup:
     worst = worst_caps(review.caps)
     if not worst:
-        return element("p", why_unmeasured(figures), class_="quiet")
+        return element("p", why_unmeasured(figures, second=review.second_annotator), class_="quiet")
     other = review.second_annotator or "what was predicted"
     legend = f"Cyan: what people marked. Magenta: {other}. Furthest above their floor first."
     shown = []

@@ -103,6 +103,26 @@ def test_photos_on_which_the_second_annotator_labelled_nothing_count_where_their
     assert (seen["images"], seen["files"]) == (2, ["bed.png", "other.png"])
 
 
+def test_a_review_against_a_second_annotator_is_of_the_photos_that_theirs_is_of(
+    folder: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "report.html"
+    found = json.loads(fairyring("review", folder, "--run", "ben.json", "--json", "--report", out).stdout)
+    assert [(each["file_name"], each["missed"]) for each in found["images"]] == [("bed.png", 1)]
+    page = out.read_text()
+    for told in (
+        "Held against ben.json, which a second annotator labelled.",
+        "Contours of both annotators",
+        "bed.png: ben.json",
+        "Magenta: ben.json.",
+        "Marked caps that ben.json has, too",
+    ):
+        assert told in page
+    assert "predicted" not in page.replace("how far the predicted centre of a cap lies", "").replace(
+        "predictions near it", ""
+    )
+
+
 def test_what_has_no_photo_in_common_is_refused(folder: Path, tmp_path: Path) -> None:
     strange = write(tmp_path / "strange.json", [square(1, 10.0)], photos=("elsewhere.png",))
     assert "no image in common" in sentence(fairyring("review", folder, "--second", strange))
