@@ -105,7 +105,7 @@ def test_whoever_finishes_an_image_is_asked_for_one_cap_of_another(
     tab = open_tab(server, name="Ada")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("Rules of this project").click()
-    expect(tab.page.get_by_label("Mark again %")).to_have_value("100")
+    expect(tab.page.get_by_label("Mark again %")).to_have_value("100", timeout=30_000)
     tab.page.get_by_label("Seed of these").fill("7")
     tab.press("Tab")
     tab.page.evaluate("document.activeElement.blur()")

@@ -142,12 +142,12 @@ def the_second_annotator_is_named_wherever_it_is_about_theirs(tab: Tab) -> None:
         "Show what was drawn and what ben.json has, or not (Shift+D)",
     ):
         desk.get_by_title(title, exact=True).wait_for()
-    expect(desk.get_by_text("Model’s")).to_have_count(0)
+    expect(desk.get_by_text("Model’s")).to_have_count(0, timeout=30_000)
     card = tab.page.get_by_label("Selected cap")
     tab.press(",")
     card.get_by_text("Second annotator’s cap").wait_for()
     strip.get_by_text("extra: only ben.json has it").wait_for()
-    expect(card.get_by_text("Score")).to_have_count(0)
+    expect(card.get_by_text("Score")).to_have_count(0, timeout=30_000)
     card.get_by_role("button", name="Second’s").click()
     tab.saved()
     tab.page.get_by_role("tab", name="History").click()
