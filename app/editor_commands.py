@@ -8,9 +8,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, structs
 
 _FILE = Path(__file__).resolve().parents[1] / "static" / "editor" / "commands.js"
+
+
+class Worded(Struct, frozen=True, forbid_unknown_fields=True):
+    """What a command does where a second annotator's caps are compared; ``{}`` is what theirs are called."""
+
+    words: str
+    label: str
 
 
 class Command(Struct, frozen=True, forbid_unknown_fields=True):
@@ -23,6 +30,14 @@ class Command(Struct, frozen=True, forbid_unknown_fields=True):
     """What a button says, where that is not ``words``."""
     hint: str = ""
     """What is said of a tool while it is in hand."""
+    second: Worded | None = None
+
+    def beside(self, second: str | None) -> Command:
+        """The command as it is worded while photos are compared with this second annotator's version."""
+        if second is None or self.second is None:
+            return self
+        words = self.second.words.replace("{}", second)
+        return structs.replace(self, words=words, label=self.second.label)
 
     @property
     def title(self) -> str:

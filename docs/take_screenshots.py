@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import tempfile
@@ -12,6 +13,9 @@ from playwright.sync_api import ViewportSize
 from fairyring.app.bench.browser.tab import Tab, centroid, chromium
 from fairyring.app.bench.serving import Server
 from fairyring.app.demo.making import make_demo
+from fairyring.storage.choices import ImportAs
+from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.project import open_project
 
 PICTURES = Path(__file__).parent / "pictures"
 WINDOW: ViewportSize = {"width": 1440, "height": 860}
@@ -30,6 +34,7 @@ def main() -> None:
             tab = Tab(browser.new_page(viewport=WINDOW))
             tab.enter(server.url, name="Ada")
             _walk(tab)
+            _two_annotators(tab, Path(folder))
         finally:
             server.stop()
 
@@ -62,6 +67,43 @@ def _walk(tab: Tab) -> None:
     _mark_again(tab)
     tab.press("?")
     _take(tab, "keys")
+
+
+def _two_annotators(tab: Tab, folder: Path) -> None:
+    """What Ben labelled of the same photo beside Ada's, at one of the caps that he left out."""
+    tab.press("Escape", "Escape")
+    image, shapes = tab.state("image"), tab.state("shapes")
+    bens = folder / "ben.json"
+    bens.write_text(json.dumps(_labels_of_ben(image, [each for each in shapes if not each["deleted"]])))
+    with open_project(folder / "demo") as project:
+        import_paths(project, [bens], as_=ImportAs.second)
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Two annotators", exact=True).click()
+    tab.page.get_by_role("combobox", name="Second annotator", exact=True).click()
+    tab.page.get_by_role("option", name=bens.name, exact=True).filter(visible=True).click()
+    tab.page.get_by_role("button", name="Compare all images with this version").click()
+    images = tab.page.get_by_role("table", name="Images of two annotators")
+    images.wait_for()
+    tab.press(".", "z")
+    images.scroll_into_view_if_needed()
+    _take(tab, "annotators")
+
+
+def _labels_of_ben(image: dict, caps: list[dict]) -> dict:
+    """The same caps a little aside, but for every eighth, and the marks of those that Ada marked."""
+    labels = []
+    for number, cap in enumerate(caps):
+        dx, dy, whole = 1.5 * (number % 5 - 2), 1.5 * (number % 3 - 1), cap["whole"]
+        visible = cap["cap"]["visible"]
+        rings = [[value + (dx, dy)[nth % 2] for nth, value in enumerate(ring)] for ring in visible]
+        label = {"id": number + 1, "image_id": 1, "category_id": 1, "segmentation": rings}
+        if cap["cap"]["mark"]:
+            label["circle"] = [whole["cx"] + dx, whole["cy"] + dy, whole.get("r") or whole["a"]]
+        if number % 8:
+            labels.append(label)
+    size = {"width": image["width"], "height": image["height"]}
+    images = [{"id": 1, "file_name": image["file_name"], **size}]
+    return {"images": images, "annotations": labels, "categories": [{"id": 1, "name": "mushroom"}]}
 
 
 def _mark_again(tab: Tab) -> None:

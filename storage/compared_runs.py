@@ -6,7 +6,8 @@ from msgspec import Struct
 from sqlalchemy import Connection, func, select
 
 from fairyring.storage.db.comparison_schema import compared_cap, comparison
-from fairyring.storage.db.schema import image, prediction
+from fairyring.storage.db.schema import image
+from fairyring.storage.images_seen import images_seen
 from fairyring.storage.review_figures import Totals, totals_among
 
 
@@ -71,13 +72,12 @@ def changed_caps(connection: Connection, first: int, second: int, *, limit: int 
 
 
 def lacking_comparison(connection: Connection, run_id: int) -> list[int]:
-    """Images with caps of which this run said something, whose figures against it are missing or stale."""
-    seen = select(prediction.c.image).where(prediction.c.run == run_id).distinct()
+    """Images with caps that this run saw, whose figures against it are missing or out of date."""
     statement = (
         select(image.c.id)
         .outerjoin(comparison, (comparison.c.image == image.c.id) & (comparison.c.run == run_id))
         .where(
-            image.c.id.in_(seen),
+            image.c.id.in_(images_seen(connection, run_id)),
             image.c.caps + image.c.ignored > 0,
             comparison.c.version.is_(None) | (comparison.c.version != image.c.version),
         )

@@ -9,7 +9,7 @@ from typing import Literal
 from msgspec import Struct
 from sqlalchemy import Connection, Row, func, select
 
-from fairyring.storage.db.schema import change_set, edit, status_change
+from fairyring.storage.db.schema import annotation, change_set, edit, prediction, run, status_change
 from fairyring.storage.images import get_image
 from fairyring.storage.ledger import chunks, stored_annotations
 from fairyring.storage.records import Annotation, Cap, GivenVerdict, Status
@@ -42,6 +42,8 @@ class ChangeSet(Struct, frozen=True, kw_only=True):
     """What was said of the image or of a cap."""
     first: tuple[str, Cap | None, Cap | None] | None = None
     """The first of its caps: uid, before and after."""
+    second: str | None = None
+    """The second annotator's version that this one was made from; None where it was not."""
     taken_back: bool = False
     """Another one has taken it back."""
     kind: Kind = "done"
@@ -88,6 +90,7 @@ def list_change_sets(
     takes_back = _takes_back(connection, image_id)
     effects, firsts = _effects(connection, numbers), _firsts(connection, numbers)
     statuses, verdicts = _statuses(connection, numbers), verdicts_by_change_set(connection, numbers)
+    seconds = _second_versions(connection, [uid for uid, _, _ in firsts.values()])
     return ChangeSetPage(
         change_sets=[
             ChangeSet(
@@ -98,6 +101,7 @@ def list_change_sets(
                 status=statuses.get(row.sequence),
                 verdict=verdicts.get(row.sequence),
                 first=firsts.get(row.sequence),
+                second=seconds.get(firsts[row.sequence][0]) if row.sequence in firsts else None,
                 taken_back=row.id in takes_back.values(),
                 kind=_kind(row.id, takes_back),
             )
@@ -244,6 +248,17 @@ def _firsts(connection: Connection, numbers: Sequence[int]) -> dict[int, tuple[s
     )
     found = connection.execute(select(edit).where(edit.c.sequence.in_(lowest)))
     return {row.change_set: (row.annotation, row.before, row.after) for row in found}
+
+
+def _second_versions(connection: Connection, uids: Sequence[str]) -> dict[str, str]:
+    """Which of these annotations started from a cap of a second annotator's, and what theirs is called."""
+    found = connection.execute(
+        select(annotation.c.uid, run.c.name)
+        .join(prediction, prediction.c.id == annotation.c.prediction)
+        .join(run, run.c.id == prediction.c.run)
+        .where(annotation.c.uid.in_(uids), run.c.kind == "second")
+    )
+    return {row.uid: row.name for row in found}
 
 
 def _statuses(

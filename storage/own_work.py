@@ -21,11 +21,9 @@ from fairyring.storage.queues import DECIDED
 from fairyring.storage.records import IMPORT, Cap, Mark, Outline
 from fairyring.storage.rules import rules_of
 
-REMEDY = "Somebody else has to; or let the project allow it: fairyring rules PROJECT --approve-own."
-UNSEEN = (
-    "Send it back for somebody to say that it is annotated, or have somebody else approve it; "
-    "or let the project allow it: fairyring rules PROJECT --approve-own."
-)
+ALLOW = "or let the project allow it, by “Approve own work” among its rules or fairyring rules --approve-own."
+REMEDY = f"Somebody else has to; {ALLOW}"
+UNSEEN = f"Send it back for somebody to say that it is annotated, or have somebody else approve it; {ALLOW}"
 
 
 def require_work_of_others(connection: Connection, image_id: int, *, user: str) -> None:

@@ -26,6 +26,7 @@ from fairyring.storage.db.rows import (
 )
 from fairyring.storage.db.schema import image, prediction, run
 from fairyring.storage.errors import StoreError
+from fairyring.storage.images_seen import note_images_listed
 from fairyring.storage.records import Cap, Outline, Run, RunKind
 
 
@@ -183,13 +184,15 @@ def add_predictions(
 def saw(connection: Connection, *, run_id: int, image_ids: Sequence[int]) -> None:
     """Notes that a run saw these images: it is now their latest, unless a later one saw them.
 
-    What a second annotator labelled never is: images go on to show what the latest model said of them.
+    What a second annotator labelled never is: images go on to show what the latest model said of them. Where
+    nothing is labelled is kept.
     """
     later = image.c.run.is_(None) | (image.c.run < run_id)
     of_a_model = exists().where(run.c.id == run_id, run.c.kind != "second")
     for image_id in image_ids:
         connection.execute(update(image).where(image.c.id == image_id, later, of_a_model).values(run=run_id))
     recount(connection, image_ids)
+    note_images_listed(connection, run_id, image_ids)
 
 
 def _of_kind(connection: Connection, known: Run, kind: RunKind) -> Run:

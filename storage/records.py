@@ -126,6 +126,11 @@ class Run(Struct, frozen=True, kw_only=True):
     """SHA-256 of the weights."""
     settings: dict[str, Any] = field(default_factory=dict)
 
+    @property
+    def second_annotator(self) -> str | None:
+        """What the version of a second annotator is called; None of what a model or a method said."""
+        return self.name if self.kind == "second" else None
+
 
 class Edit(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, omit_defaults=True):
     """One change of one annotation, as the browser sends it."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from msgspec import Struct
-from sqlalchemy import Connection, Select, func, select, union, update
+from sqlalchemy import Connection, Row, func, select, update
 
 from fairyring.storage.cap_validity import check_name
 from fairyring.storage.db.rows import SELECT_PREDICTIONS, image_of, is_number, prediction_of, run_of
 from fairyring.storage.db.schema import image, prediction, run
 from fairyring.storage.errors import StoreError
+from fairyring.storage.images_seen import NOTHING_ON, images_seen
 from fairyring.storage.records import Image, Prediction, Run
 
 MOST_NAMED = 5
@@ -22,7 +24,7 @@ class RunRow(Struct, frozen=True, kw_only=True):
 
     run: Run
     images: int
-    """How many images it saw and said something of."""
+    """How many images it saw."""
     predictions: int
     latest_of: int
     """Of how many images it is the latest, whose predictions these show."""
@@ -33,11 +35,16 @@ def list_runs(connection: Connection) -> list[RunRow]:
     counted = select(prediction.c.run, func.count(), func.count(prediction.c.image.distinct()))
     predictions = {row[0]: (row[1], row[2]) for row in connection.execute(counted.group_by(prediction.c.run))}
     latest = _latest_of(connection)
+
+    def images_of(row: Row[Any]) -> int:
+        with_caps, nothing_on = predictions.get(row.id, (0, 0))[1], len(row.settings.get(NOTHING_ON, ()))
+        return max(with_caps + nothing_on, latest.get(row.id, 0))
+
     return [
         RunRow(
             run=run_of(row),
             predictions=predictions.get(row.id, (0, 0))[0],
-            images=max(predictions.get(row.id, (0, 0))[1], latest.get(row.id, 0)),
+            images=images_of(row),
             latest_of=latest.get(row.id, 0),
         )
         for row in connection.execute(select(run).order_by(run.c.id))
@@ -93,8 +100,9 @@ def rename_run(connection: Connection, run_id: int, name: str) -> None:
 
 
 def images_seen_by(connection: Connection, run_id: int) -> list[Image]:
-    """The images that a run said something of, or is the latest of, by name."""
-    statement = select(image).where(image.c.id.in_(_seen(run_id))).order_by(image.c.sort_name, image.c.id)
+    """The images that a run saw, by name."""
+    seen = image.c.id.in_(images_seen(connection, run_id))
+    statement = select(image).where(seen).order_by(image.c.sort_name, image.c.id)
     return [image_of(row) for row in connection.execute(statement)]
 
 
@@ -119,14 +127,6 @@ def latest_runs_of(connection: Connection, image_ids: Iterable[int]) -> list[tup
 def _latest_of(connection: Connection) -> dict[int, int]:
     statement = select(image.c.run, func.count()).where(image.c.run.is_not(None)).group_by(image.c.run)
     return {row[0]: row[1] for row in connection.execute(statement)}
-
-
-def _seen(run_id: int) -> Select[tuple[int]]:
-    seen = union(
-        select(prediction.c.image).where(prediction.c.run == run_id),
-        select(image.c.id).where(image.c.run == run_id),
-    ).subquery()
-    return select(seen.c.image)
 
 
 def _those_there_are(connection: Connection) -> str:

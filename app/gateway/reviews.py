@@ -16,9 +16,10 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 
 from fairyring.app.gateway.login import name_of
-from fairyring.app.panels.markup import Markup
+from fairyring.app.report.bars import Bar, rows_of_bars
+from fairyring.app.report.drawing import Drawing, file_of
 from fairyring.app.report.page import page_of
-from fairyring.app.report.plots import Bar, cdr_bars, shifts
+from fairyring.app.report.plots import drawing_of_shifts
 from fairyring.app.review.figures import review_of
 from fairyring.app.static_folder import STATIC
 from fairyring.storage.compared_caps import caps_of_image
@@ -91,7 +92,8 @@ def _answer(project: Project, asked: _Asked) -> Response | None:
         plot, rows = PLOTS[name](connection, run.id, asked)
     if kind == "csv":
         return _kept(_csv(rows), "text/csv; charset=utf-8", asked.what)
-    return _kept(_alone(plot), "image/svg+xml", asked.what)
+    looks = (STATIC / "report.css").read_text(encoding="utf-8")
+    return _kept(file_of(plot, looks), "image/svg+xml", asked.what)
 
 
 def _has_image(project: Project, number: int) -> bool:
@@ -120,7 +122,7 @@ def _run(connection: Connection, asked: _Asked) -> Run | None:
     return None
 
 
-def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[list[Drawing], Rows]:
     found = list_comparisons(
         connection, run_id, sort="name", descending=False, only_sure=asked.only_sure, limit=EVERYTHING
     )
@@ -133,41 +135,31 @@ def _of_images(connection: Connection, run_id: int, asked: _Asked) -> tuple[Mark
     bars.sort(key=lambda bar: bar.cdr, reverse=True)
     columns = ("cdr_mean", "floor_mean", "cdr_worst", "dx", "dy", "measured", "matched", "missed", "extra")
     rows = [(name, *(getattr(each, column) for column in columns)) for name, each in figures]
-    return cdr_bars(bars, what="Mean CDR by image"), (("image", *columns), rows)
+    return rows_of_bars(bars, what="Mean CDR by image"), (("image", *columns), rows)
 
 
-def _of_caps(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+def _of_caps(connection: Connection, run_id: int, asked: _Asked) -> tuple[list[Drawing], Rows]:
     caps = [] if asked.image is None else caps_of_image(connection, run_id, asked.image)
     numbered = [(nth, each) for nth, each in enumerate(caps, start=1) if each.cdr is not None]
     measured = [(n, each) for n, each in numbered if not (asked.only_sure and (each.unsure or each.doubtful))]
     bars = [Bar(name=f"cap {nth}", cdr=each.cdr or 0.0, floor=each.floor) for nth, each in measured]
     columns = ("annotation", "cdr", "floor", "dx", "dy", "iou", "annotator", "size", "shape", "visibility")
     rows = [[nth, *(getattr(each, column) for column in columns)] for nth, each in measured]
-    return cdr_bars(bars, what="CDR of each cap"), (("cap", *columns), rows)
+    return rows_of_bars(bars, what="CDR of each cap"), (("cap", *columns), rows)
 
 
-def _of_shifts(connection: Connection, run_id: int, asked: _Asked) -> tuple[Markup, Rows]:
+def _of_shifts(connection: Connection, run_id: int, asked: _Asked) -> tuple[list[Drawing], Rows]:
     found = find_shifts(connection, run_id, only_sure=asked.only_sure, most=EVERYTHING)
     rows = [(each.image, each.annotation, each.dx, each.dy) for each in found]
-    plot = shifts([(each.dx, each.dy) for each in found])
+    plot = drawing_of_shifts([(each.dx, each.dy) for each in found])
     return plot, (("image", "cap", "dx", "dy"), rows)
 
 
-PLOTS: dict[str, Callable[[Connection, int, _Asked], tuple[Markup, Rows]]] = {
+PLOTS: dict[str, Callable[[Connection, int, _Asked], tuple[list[Drawing], Rows]]] = {
     "cdr": _of_images,
     "caps": _of_caps,
     "shifts": _of_shifts,
 }
-
-
-def _alone(figure: Markup) -> str:
-    """The plot of a figure as a file of its own, with its looks in it."""
-    start, end = figure.html.find("<svg"), figure.html.find("</svg>")
-    looks = f"<style>{(STATIC / 'report.css').read_text(encoding='utf-8')}</style>"
-    if start < 0:
-        return f'<svg xmlns="http://www.w3.org/2000/svg">{looks}</svg>'
-    head = figure.html.index(">", start) + 1
-    return f"{figure.html[start:head]}{looks}{figure.html[head:end]}</svg>"
 
 
 def _csv(rows: Rows) -> str:

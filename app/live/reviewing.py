@@ -22,7 +22,7 @@ from fairyring.storage.runs import all_runs, get_run, predictions_by
 async def compare_photo_with(workspace: Workspace, session: Session, run: Run | None) -> None:
     """Has photos compared with this run from now on (None: with the one on screen), this one at once."""
     session.run_on_photo = run
-    session.refresh("review", "cap")
+    session.refresh("review", "cap", "desk")
     if session.image is not None:
         await tell_differences(workspace, session, session.image.id)
 
@@ -66,8 +66,8 @@ async def tell_differences(workspace: Workspace, session: Session, image_id: int
     found = await anyio.to_thread.run_sync(partial(worker.run, differences_of, *caps))
     extra = {cap.prediction.id for cap in found if cap.prediction and not cap.annotation}
     turned_down = [each for each in deleted if each.cap.prediction in extra]
-    is_second = run is not None and run.kind == "second"
-    session.send(Compared(image=image_id, caps=found, turned_down=turned_down, second=is_second))
+    second = session.second_annotator
+    session.send(Compared(image=image_id, caps=found, turned_down=turned_down, second=second))
 
 
 def _load(

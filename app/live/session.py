@@ -91,6 +91,11 @@ class Session:
         """The image on screen."""
         return self.caps.image if self.caps else None
 
+    @property
+    def second_annotator(self) -> str | None:
+        """What the second annotator's version is called that photos are compared with; None for a model's."""
+        return self.run_on_photo.second_annotator if self.run_on_photo else None
+
     def shows(self, image_id: int) -> bool:
         """Whether this image is on screen."""
         return self.image is not None and self.image.id == image_id

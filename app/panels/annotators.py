@@ -220,4 +220,4 @@ def _number(value: float | None, decimals: int) -> str:
 def _kappa(of: Kappa | None) -> str:
     if of is None or not of.count:
         return "–"
-    return "both always say the same" if of.kappa is None else f"{of.kappa:.2f}"
+    return "always alike" if of.kappa is None else f"{of.kappa:.2f}"

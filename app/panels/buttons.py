@@ -34,9 +34,12 @@ def command_button(name: str, *, class_: str | None = None) -> Markup:
     )
 
 
-def labelled_button(name: str) -> Markup:
-    """Runs a command; an icon and its name. Raises KeyError for one not declared."""
-    command = COMMANDS[name]
+def labelled_button(name: str, second: str | None = None) -> Markup:
+    """Runs a command; an icon and its name. Raises KeyError for one not declared.
+
+    ``second``: the second annotator's version that photos are compared with, None for a model's.
+    """
+    command = COMMANDS[name].beside(second)
     return element(
         "button",
         icon(name),

@@ -27,7 +27,7 @@ OF_THE_PICTURE = ("review", "blink", "magnify", "mark_again")
 def build(workspace: Workspace, session: Session) -> Redraw:
     """Builds the desk."""
     gui = session.client.gui
-    gui.add_html(keys_on_screen().html)
+    keys = gui.add_html(keys_on_screen().html)
     shown = gui.add_html("")
     again = gui.add_html("")
     with gui.add_folder("Rules of this project", expand_by_default=False):
@@ -53,6 +53,7 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
     async def redraw() -> None:
         image_id = session.image.id if session.image else None
+        keys.content = keys_on_screen(session.second_annotator).html
         rules, verdicts, repeats = await workspace.read(partial(_load, image_id=image_id))
         own.value = rules.approve_own
         share.value, seed.value = 100 * rules.repeat_share, rules.repeat_seed
@@ -115,12 +116,12 @@ def said_of_image(verdicts: Sequence[GivenVerdict]) -> Markup:
     )
 
 
-def keys_on_screen() -> Markup:
-    """A button for everything a reviewer does, with its key."""
+def keys_on_screen(second: str | None = None) -> Markup:
+    """A button for everything a reviewer does, with its key; to a second annotator's version of this name."""
     return element(
         "div",
         *(
-            element("div", *map(_button, names), class_="fr-desk-row")
+            element("div", *(_button(name, second) for name in names), class_="fr-desk-row")
             for names in (ON_CAPS, ON_IMAGES, OF_THE_PICTURE)
         ),
         class_="fr-review fr-desk",
@@ -129,8 +130,8 @@ def keys_on_screen() -> Markup:
     )
 
 
-def _button(name: str) -> Markup:
-    command = COMMANDS[name]
+def _button(name: str, second: str | None) -> Markup:
+    command = COMMANDS[name].beside(second)
     return element(
         "button",
         element("kbd", command.keys[0]),

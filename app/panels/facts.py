@@ -15,13 +15,23 @@ def definitions(facts: Facts, *, class_: str | None = None) -> Markup:
     return element("dl", *rows, class_=class_)
 
 
-def card(*title: Markup, facts: Facts, commands: tuple[str, ...] = (), below: Markup | None = None) -> Markup:
-    """A title, terms with what is to be said of them, something ``below``, and buttons."""
+def card(
+    *title: Markup,
+    facts: Facts,
+    commands: tuple[str, ...] = (),
+    second: str | None = None,
+    below: Markup | None = None,
+) -> Markup:
+    """A title, terms with what is to be said of them, something ``below``, and buttons.
+
+    ``second``: the second annotator's version that the commands are about, None for a model's.
+    """
+    buttons = [labelled_button(name, second) for name in commands]
     return element(
         "section",
         element("div", *title, class_="fr-line"),
         element("div", definitions(facts), below, class_="fr-facts", tabindex=0),
-        element("div", *map(labelled_button, commands), class_="fr-actions") if commands else None,
+        element("div", *buttons, class_="fr-actions") if buttons else None,
         class_="fr-cap",
         aria_label="Selected cap",
     )

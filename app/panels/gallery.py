@@ -44,6 +44,13 @@ ABOUT: dict[Kind, str] = {
     "unsure": "Their marks hardly determine a centre.",
     "ignored": "They count neither way.",
 }
+ABOUT_SECOND: dict[Kind, str] = {
+    "worst": "Between their centres / floor of the first’s mark; furthest above its floor first.",
+    "matched": "The annotations and {} have it; unmarked ones have no CDR.",
+    "missed": "In the annotations, and not in {}.",
+    "extra": "In {}, and not in the annotations.",
+}
+"""The same of caps that are compared with a second annotator's version, ``{}``."""
 
 BY_WORDS: dict[By, str] = {
     "light": "light",
@@ -76,6 +83,15 @@ class Shown:
     """Only caps of this group; None for all images."""
     name: str = ""
     """What the group is called."""
+    second: str | None = None
+    """The second annotator's version that its caps are compared with, None for a model's."""
+
+    def about(self, kind: Kind) -> str:
+        """Which caps these are."""
+        if self.second is None or kind not in ABOUT_SECOND:
+            return ABOUT[kind]
+        return ABOUT_SECOND[kind].replace("{}", self.second)
+
     counts: Mapping[Kind, int] = field(default_factory=lambda: dict.fromkeys(KINDS, 0))
     page: int = 0
     thumbnails: Sequence[Thumbnail] = ()
@@ -117,6 +133,7 @@ def _find(connection: Connection, *, kind: Kind, group: Group | None, wanted: in
         kind=kind,
         group=group,
         name="" if group is None else _name_of(connection, group),
+        second=_second_of(connection, group),
         counts=counts,
         page=page,
         thumbnails=[_thumbnail(connection, each) for each in found],
@@ -130,6 +147,14 @@ def _name_of(connection: Connection, group: Group) -> str:
         if group.by == "run":
             return _name_of_run(connection, group)
     return f"{BY_WORDS[group.by]}: {words_of(group.value or NOT_KNOWN)}"
+
+
+def _second_of(connection: Connection, group: Group | None) -> str | None:
+    """The second annotator's version that the caps of a group are compared with."""
+    with suppress(StoreError):
+        if group is not None and group.by == "run":
+            return get_run(connection, number_of(group) or 0).second_annotator
+    return None
 
 
 def _name_of_run(connection: Connection, group: Group) -> str:
@@ -161,7 +186,7 @@ def gallery(found: Shown) -> Markup:
         _group_line(found),
         element("div", *(_count(each, found) for each in KINDS), class_="fr-kinds"),
         element("div", *map(_figure, found.thumbnails), class_="fr-gallery"),
-        element("div", counts + ABOUT[found.kind], class_="fr-quiet"),
+        element("div", counts + found.about(found.kind), class_="fr-quiet"),
         class_="fr-review",
         role="group",
         aria_label="Caps of all images",
@@ -185,7 +210,7 @@ def _count(kind: Kind, found: Shown) -> Markup:
         "button",
         f"{found.counts[kind]} {WORDS[kind]}",
         type="button",
-        title=ABOUT[kind],
+        title=found.about(kind),
         aria_pressed="true" if kind == found.kind else "false",
         data_fairyring_gallery=kind,
         **of_group(found.group),

@@ -95,11 +95,12 @@ def _take_back(done: ChangeSet, image_id: int) -> Markup | None:
 def words_of(done: ChangeSet) -> str:
     """What somebody did, as the end of a sentence that begins with the name."""
     made = "accepted" if _is_of_prediction(done) else "imported" if done.user == "import" else "drew"
+    said = "prediction" if done.second is None else f"cap of {done.second}"
     counted = (
-        (made, done.made, "prediction" if made == "accepted" else "cap"),
+        (made, done.made, said if made == "accepted" else "cap"),
         ("changed", done.changed, "cap"),
         ("deleted", done.deleted, "cap"),
-        ("turned down", done.turned_down, "prediction"),
+        ("turned down", done.turned_down, said),
         ("brought back", done.brought_back, "cap"),
     )
     parts = [f"{verb} {_count(n, what)}" for verb, n, what in counted if n]
@@ -121,7 +122,8 @@ def _said(verdict: GivenVerdict) -> str:
 
 
 def _count(number: int, what: str) -> str:
-    return f"a {what}" if number == 1 else f"{number} {what}s"
+    noun, _, rest = what.partition(" ")
+    return f"a {what}" if number == 1 else f"{number} {noun}s {rest}".rstrip()
 
 
 def _is_of_prediction(done: ChangeSet) -> bool:

@@ -24,6 +24,8 @@ _PATHS = {
     "accept_all": "M2 13l4 4 8-9M10 16l1 1 9-10",
     "check": "M3 12l4 4 7-9M14 19h7M18 16l3 3-3 3",
     "accept": "M4 13l5 5L20 6",
+    "take_models": "M4 13l5 5L20 6",
+    "take_annotators": "M9 6L4 11l5 5M4 11h16",
     "delete": "M5 7h14M10 4h4M7 7l1 13h8l1-13M10 11v5M14 11v5",
     "done": "M4 5v14M8 12h11M14 7l5 5-5 5",
     "mark": "M12 4a8 8 0 100 16 8 8 0 000-16zM12 9v6M9 12h6",

@@ -72,7 +72,8 @@ async def _inspect(workspace: Workspace, session: Session) -> Markup:
             said = await workspace.read(lambda connection: verdicts_of(connection, caps.image.id))
             return summary(caps, open_demand(said))
         case [Annotation() as annotation]:
-            return annotation_facts(annotation, await _background(workspace, session, caps, annotation))
+            background = await _background(workspace, session, caps, annotation)
+            return annotation_facts(annotation, background, second=session.second_annotator)
         case [Prediction() as prediction]:
             return prediction_facts(prediction, session.run)
         case several:
@@ -125,8 +126,8 @@ def _judged(caps: ImageCaps, uid: str, said: Sequence[Prediction]) -> tuple[str,
     return note_of(found), arcs_of(found), compare_cap(replace(caps, predictions=said), uid)
 
 
-def annotation_facts(annotation: Annotation, background: Background) -> Markup:
-    """The inspector's view of an annotation."""
+def annotation_facts(annotation: Annotation, background: Background, *, second: str | None = None) -> Markup:
+    """The inspector's view of an annotation, beside a second annotator's version, else a model's."""
     cap = annotation.cap
     flags = [
         element("span", word, class_="fr-badge fr-warn")
@@ -139,7 +140,7 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
         ("Fit", background.note),
         *([("Rim", arcs_list(background.arcs))] if background.arcs else []),
         ("Mark", _mark(cap.mark)),
-        *error_facts(background.pair, floor=background.floor),
+        *error_facts(background.pair, floor=background.floor, second=second),
         *([] if cap.order is None else [("Overlap", f"{cap.order} (higher lies in front)")]),
         ("From", _origin(background)),
         ("Edited", _last_edit(annotation, background.entries)),
@@ -149,12 +150,18 @@ def annotation_facts(annotation: Annotation, background: Background) -> Markup:
     return card(title, *flags, facts=facts, commands=(marking, "doubtful", "ignored", "delete"))
 
 
-def error_facts(pair: Pair | None, *, floor: float | None) -> Facts:
-    """How far a prediction lies from a mark, beside the CDR in percent that the mark has by itself."""
+def error_facts(pair: Pair | None, *, floor: float | None, second: str | None = None) -> Facts:
+    """How far a prediction lies from a mark, beside the CDR in percent that the mark has by itself.
+
+    ``second``: what the second annotator's version is called that stands for predictions, None for a model's.
+    """
     if pair is None:
-        return [("Prediction", "none matches this cap")]
+        return [
+            ("Second", f"{second} has no such cap") if second else ("Prediction", "none matches this cap")
+        ]
     if pair.error is None:
-        return [("CDR", "mark the cap to measure its prediction")]
+        measured = f"how far {second} lies from it" if second else "its prediction"
+        return [("CDR", f"mark the cap to measure {measured}")]
     error = pair.error
     signed = f"Δx {error.dx:+.2f}, Δy {error.dy:+.2f} px"
     share = "" if error.relative is None else f", {100 * error.relative:.2f} % of the diameter"
@@ -167,15 +174,18 @@ def error_facts(pair: Pair | None, *, floor: float | None) -> Facts:
 
 
 def prediction_facts(prediction: Prediction, run: Run | None) -> Markup:
-    """The inspector's view of a prediction."""
+    """The inspector's view of a prediction, or of a cap that a second annotator labelled."""
+    second = run.second_annotator if run else None
     facts: Facts = [
         ("Centre", _point(prediction.centre)),
         ("Whole", _shape(prediction.whole)),
-        ("Score", f"{prediction.score:.3f}"),
+        *([] if second else [("Score", f"{prediction.score:.3f}")]),
         *_quality(prediction),
-        ("Run", run_badge(run) if run else "unknown"),
+        ("From" if second else "Run", run_badge(run) if run else "unknown"),
     ]
-    return card(element("strong", f"Prediction {prediction.id}"), facts=facts, commands=("accept", "delete"))
+    title = f"Second annotator’s cap {prediction.id}" if second else f"Prediction {prediction.id}"
+    commands = ("take_models", "take_annotators") if second else ("accept", "delete")
+    return card(element("strong", title), facts=facts, commands=commands, second=second)
 
 
 def _quality(prediction: Prediction) -> Facts:
@@ -232,6 +242,8 @@ def _origin(background: Background) -> Content:
             "imported" if background.entries and background.entries[0].user == "import" else "drawn by hand"
         )
     badge = run_badge(background.run) if background.run else "a prediction"
+    if background.run and background.run.second_annotator:
+        return badge
     return element("span", badge, f" score {prediction.score:.2f}")
 
 

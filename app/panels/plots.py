@@ -19,7 +19,7 @@ from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.callbacks import Redraw
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.panels.plotted import Plot, plot_of_caps, plot_of_images, plot_of_shifts
+from fairyring.app.panels.plotted import Plot, further_out, plot_of_caps, plot_of_images, plot_of_shifts
 from fairyring.storage.compared_caps import CapFigures, caps_of_image
 from fairyring.storage.comparisons import ComparisonRow, list_comparisons
 from fairyring.storage.predictions import latest_run
@@ -112,6 +112,7 @@ def below_plot(plot: Plot, title: str, name: str, *, only_sure: bool, image: int
     return element(
         "div",
         element("div", "A click opens what the pointer is at.", class_="fr-pointed"),
+        element("div", further_out(plot.beyond)) if plot.beyond else None,
         *links,
         class_="fr-review fr-quiet fr-plot",
         role="group",

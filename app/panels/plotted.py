@@ -37,6 +37,8 @@ class Plot:
     x: tuple[float, float] = (0.0, 1.0)
     """Ends of the axis."""
     y: tuple[float, float] = (0.0, 1.0)
+    beyond: int = 0
+    """How many points lie beyond its edges."""
 
 
 def plot_of_images(rows: Sequence[ComparisonRow]) -> Plot:
@@ -114,8 +116,17 @@ def plot_of_shifts(found: Sequence[Shift]) -> Plot:
     ]
     # y grows downwards on a photo, so it does here.
     return Plot(
-        columns=tuple(each[order] for each in columns), points=points, x=(-reach, reach), y=(reach, -reach)
+        columns=tuple(each[order] for each in columns),
+        points=points,
+        x=(-reach, reach),
+        y=(reach, -reach),
+        beyond=len(found) - len(inside),
     )
+
+
+def further_out(count: int) -> str:
+    """How many points lie beyond the edges of a plot."""
+    return "1 lies further out." if count == 1 else f"{count} lie further out."
 
 
 def _by_number(points: Sequence[Point], *columns: NDArray[np.float64]) -> Plot:

@@ -26,7 +26,7 @@ def review_figures(review: Review) -> Markup:
         "div",
         element("div", run_badge(review.run), _stale_note(review.stale), class_="fr-line"),
         _totals(review.totals),
-        _why_unmeasured(review.totals, marked=review.marked),
+        None if review.stale else _why_unmeasured(review.totals, marked=review.marked),
         element("details", element("summary", "What CDR is"), element("p", ABOUT), class_="fr-quiet"),
         class_="fr-review",
     )

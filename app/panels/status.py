@@ -107,13 +107,12 @@ def _work_line(session: Session) -> list[Markup]:
 
 
 def run_badge(run: Run) -> Markup:
-    """A run's name; simulated predictions are called so."""
+    """A run's name; simulated predictions are called so, and what a second annotator labelled."""
     if run.kind == "simulated":
         warning = (
             "These predictions are true masks distorted by a noise model; no network has seen the photo."
         )
         return element("span", "simulated predictions", class_="fr-badge fr-warn", title=warning)
     words = f"predicted by {run.name}" if run.kind == "network" else run.name
-    return element(
-        "span", words, class_="fr-badge fr-ellipsis", title=f"Predictions: {run.name}, {run.made_at}"
-    )
+    what = "Labelled by a second annotator" if run.kind == "second" else "Predictions"
+    return element("span", words, class_="fr-badge fr-ellipsis", title=f"{what}: {run.name}, {run.made_at}")

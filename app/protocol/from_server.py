@@ -86,8 +86,8 @@ class Compared(FromServer, frozen=True, tag="compared"):
     caps: list[ComparedCap]
     turned_down: list[Annotation]
     """What people have deleted of the predictions that match no cap."""
-    second: bool
-    """Whether it is what a second annotator labelled that is compared, and not what a model said."""
+    second: str | None
+    """What the second annotator's version is called that is compared; None where a model's is."""
 
 
 class MarkAgain(FromServer, frozen=True, tag="mark_again"):

@@ -35,8 +35,8 @@ def is_of_one(review: Review) -> bool:
 
 
 def _predictions(project: Project, review: Review) -> str:
-    if review.run is not None and review.run.kind == "second":
-        return f"Held against {review.run.name}, which a second annotator labelled."
+    if review.second_annotator is not None:
+        return f"Held against {review.second_annotator}, which a second annotator labelled."
     if review.run is not None:
         return f"Held against the predictions of {review.run.name}."
     with project.read() as connection:

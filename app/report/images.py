@@ -7,8 +7,8 @@ from typing import Any
 
 from fairyring.app.panels.markup import Markup, element
 from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.report.bars import Bar, cdr_bars
 from fairyring.app.report.pictures import side_by_side
-from fairyring.app.report.plots import Bar, cdr_bars
 from fairyring.app.report.tables import number, table
 from fairyring.app.review.figures import Review
 from fairyring.app.review.unmeasured import why_unmeasured
@@ -16,7 +16,6 @@ from fairyring.storage.project import Project
 
 MOST_CAP_BY_CAP = 6
 """Of so many images at most each cap is plotted, and the photo shown."""
-WORDS = ("marked, with the numbers of the caps", "predicted", "both, with the lines between centres")
 
 
 def image_sections(project: Project, review: Review, figures: dict[str, Any]) -> list[Markup]:
@@ -25,7 +24,7 @@ def image_sections(project: Project, review: Review, figures: dict[str, Any]) ->
     few = len(review.images) <= MOST_CAP_BY_CAP
     return [
         element("h2", "Image by image" if len(images) > 1 else "The image"),
-        *([_bars_of_images(images, figures)] if len(images) > 1 else []),
+        *([_bars_of_images(review, images, figures)] if len(images) > 1 else []),
         _table(images),
         *(_cap_by_cap(review, images) if few else []),
         *(_photos(project, review) if few else []),
@@ -47,10 +46,10 @@ def _table(images: Sequence[dict[str, Any]]) -> Markup:
         )
         for row in images
     ]
-    return table(head, rows)
+    return element("div", table(head, rows), id="images")
 
 
-def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -> Markup:
+def _bars_of_images(review: Review, images: Sequence[dict[str, Any]], figures: dict[str, Any]) -> Markup:
     """The highest first."""
     bars = [
         Bar(name=row["file_name"], cdr=row["cdr"]["mean"], floor=row["floor"]["cdr_mean"])
@@ -58,7 +57,9 @@ def _bars_of_images(images: Sequence[dict[str, Any]], figures: dict[str, Any]) -
         if row["cdr"]["mean"] is not None
     ]
     highest_first = sorted(bars, key=lambda bar: bar.cdr, reverse=True)
-    return cdr_bars(highest_first, what="Mean CDR by image", nothing=why_unmeasured(figures))
+    others = element("a", "the table", href="#images")
+    nothing = why_unmeasured(figures, second=review.second_annotator)
+    return cdr_bars(highest_first, what="Mean CDR by image", others=others, nothing=nothing)
 
 
 def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup]:
@@ -75,23 +76,37 @@ def _cap_by_cap(review: Review, images: Sequence[dict[str, Any]]) -> list[Markup
         ]
         of = f"{row['file_name']}: "
         plots.append(
-            cdr_bars(bars, what=f"{of}CDR of each cap", nothing=of + _lower_first(why_unmeasured(row)))
+            cdr_bars(
+                bars,
+                what=f"{of}CDR of each cap",
+                others=element("a", "caps.csv", href="#files"),
+                nothing=of + _within_sentence(why_unmeasured(row, second=review.second_annotator), review),
+            )
         )
     return plots
 
 
-def _lower_first(sentence: str) -> str:
-    return sentence[:1].lower() + sentence[1:]
+def _within_sentence(words: str, review: Review) -> str:
+    """Without a capital in front, unless a name stands there."""
+    is_name = words.startswith(review.second_annotator or "\0")
+    return words if is_name else words[:1].lower() + words[1:]
 
 
 def _photos(project: Project, review: Review) -> list[Markup]:
     """What was marked, what was predicted, and both."""
+    second = review.second_annotator
+    words = (
+        "marked, with the numbers of the caps",
+        second or "predicted",
+        "both, with the lines between centres",
+    )
     shown = []
     for image in review.images:
-        pictures = zip(WORDS, side_by_side(project, image.id, run=review.run), strict=False)
+        pictures = zip(words, side_by_side(project, image.id, run=review.run), strict=False)
         of_one = (_photo(f"{image.file_name}: {word}", address) for word, address in pictures)
         shown.append(element("section", *of_one, class_="photos"))
-    return [element("h2", "Marked and predicted contours"), *shown] if shown else []
+    title = "Contours of both annotators" if second else "Marked and predicted contours"
+    return [element("h2", title), *shown] if shown else []
 
 
 def _photo(told: str, address: str) -> Markup:

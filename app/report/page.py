@@ -63,8 +63,7 @@ def page_of(
             element("h2", "What reviewers said"),
             said_table(review.said, of_one=is_of_one(review)),
             paper_tables(project, review),
-            element("h2", "Where predicted centres lie"),
-            shifts([(cap.dx, cap.dy) for cap in (c.measured.error for c in review.caps) if cap]),
+            *_shifts(review),
             element("h2", "What people are off by themselves"),
             marked_again(figures["marked_again"]),
             *group_tables(figures["groups"]),
@@ -99,11 +98,22 @@ def _totals(figures: dict[str, Any]) -> Markup:
     )
 
 
+def _shifts(review: Review) -> tuple[Markup, Markup]:
+    found = [(error.dx, error.dy) for cap in review.caps if (error := cap.measured.error)]
+    second = review.second_annotator
+    if second is None:
+        return element("h2", "Where predicted centres lie"), shifts(found)
+    return element("h2", f"Where the centres of {second} lie"), shifts(
+        found, what=f"Centre of {second} minus marked centre"
+    )
+
+
 def _gallery(project: Project, review: Review, figures: dict[str, Any]) -> Markup:
     worst = worst_caps(review.caps)
     if not worst:
-        return element("p", why_unmeasured(figures), class_="quiet")
-    legend = "Cyan: what people marked. Magenta: what was predicted. Furthest above their floor first."
+        return element("p", why_unmeasured(figures, second=review.second_annotator), class_="quiet")
+    other = review.second_annotator or "what was predicted"
+    legend = f"Cyan: what people marked. Magenta: {other}. Furthest above their floor first."
     shown = []
     for cap, address in zip(worst, close_ups(project, worst), strict=True):
         row = cap.measured.row
@@ -151,6 +161,7 @@ def _tables_to_download(figures: dict[str, Any], review: Review) -> Markup:
         _download("caps.csv", names, caps),
         " · ",
         _download("verdicts.csv", told, [[entry.get(name, "") for name in told] for entry in said]),
+        id="files",
     )
 
 

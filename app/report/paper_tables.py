@@ -96,7 +96,9 @@ def _table_3(scored: Sequence[_Scored]) -> list[Markup]:
 
 
 def _table_4(review: Review) -> list[Markup]:
-    told = "Marked caps with a prediction, and what their marks are off by themselves."
+    second = review.second_annotator
+    whose = f"that {second} has, too" if second else "with a prediction"
+    told = f"Marked caps {whose}, and what their marks are off by themselves."
     rows: list[tuple[Content, ...]] = []
     for place, image in enumerate(review.images):
         measured = [cap for cap in review.caps if cap.measured.page == place and cap.measured.error]

@@ -27,6 +27,7 @@ from fairyring.model.evaluate.repeated_marks import RepeatedMark
 from fairyring.model.progress import Progress, silent
 from fairyring.storage.project import Project
 from fairyring.storage.records import Image, Run
+from fairyring.storage.runs import images_seen_by
 
 MOST_WORST = 24
 """How many of the worst caps are listed."""
@@ -80,6 +81,11 @@ class Review:
     repeats: list[RepeatedMark]
     """Caps that somebody marked twice."""
 
+    @property
+    def second_annotator(self) -> str | None:
+        """Whose version stands for predictions, where that is a second annotator's."""
+        return self.run.second_annotator if self.run else None
+
 
 def review_of(
     project: Project,
@@ -91,6 +97,8 @@ def review_of(
     progress: Progress = silent,
 ) -> Review:
     """Compares every image that somebody worked on with the latest predictions of it, or those of a run.
+
+    Of a second annotator's version only the images that it is of are compared.
 
     Args:
         project: whose images.
@@ -109,7 +117,11 @@ def review_of(
     left_out = 0
     fill_in(project, progress=progress)
     with project.read() as connection:
-        touched, untouched = worked_on(connection, images=images, among=among)
+        wanted = among
+        if run is not None and run.second_annotator:
+            seen_by = {image.id for image in images_seen_by(connection, run.id)}
+            wanted = seen_by if among is None else {number for number in seen_by if number in among}
+        touched, untouched = worked_on(connection, images=images, among=wanted)
         numbers = [image.id for image in touched]
         said = said_of(connection, [*touched, *untouched])
         repeats = repeated_marks(connection)

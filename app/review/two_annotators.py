@@ -45,7 +45,9 @@ def agreement_on_image(connection: Connection, image_id: int, second: Run) -> Ag
 
 
 def agreement_with_run(project: Project, second: Run, *, images: str = "*") -> Agreement:
-    """The same over all images that somebody worked on and the second version has caps on.
+    """The same over all images that somebody worked on and the second version is of.
+
+    Its files may list images without a cap: there all caps of the first are missed.
 
     Args:
         project: whose annotations.
@@ -60,7 +62,7 @@ def agreement_with_run(project: Project, second: Run, *, images: str = "*") -> A
         seen = {image.id for image in images_seen_by(connection, second.id)}
         numbers = [image.id for image in worked_on(connection, images=images, among=seen)[0]]
         if not numbers:
-            raise FairyringError(f"There is no image with labels on which {second.name} has caps.")
+            raise FairyringError(f"There is no image with labels that {second.name} is of, too.")
         return _with_run(reviewed_images(connection, numbers, run=second))
 
 

@@ -3,7 +3,7 @@
  * the keyboard, the key list and the panel. What a command does stands in `input/actions.js`.
  *
  * `words` are for the key list, `label` is for a button where that has other words, `hint` is shown while a tool is in hand. A key is written as the
- * key list shows it. From its first brace on this is JSON: `app/editor_commands.py` reads it too.
+ * key list shows it; `second` is what stands where a second annotator's caps are compared, with `{}` for what theirs are called. From its first brace on this is JSON: `app/editor_commands.py` reads it too.
  *
  * @module
  */
@@ -145,18 +145,18 @@ export default {
     {
       "title": "Review",
       "commands": [
-        { "name": "review", "keys": ["Shift+D"], "words": "Show what was drawn and what was predicted, or not", "label": "Both outlines" },
+        { "name": "review", "keys": ["Shift+D"], "words": "Show what was drawn and what was predicted, or not", "label": "Both outlines", "second": { "words": "Show what was drawn and what {} has, or not", "label": "Both outlines" } },
         { "name": "next_difference", "keys": ["."], "words": "Next cap that differs, the worst first", "label": "Next" },
         { "name": "previous_difference", "keys": [","], "words": "Previous cap that differs", "label": "Previous" },
-        { "name": "take_models", "keys": ["S"], "words": "Take the model’s: its outline, its cap, or no cap", "label": "Model’s" },
-        { "name": "take_annotators", "keys": ["U"], "words": "Take the annotator’s: approve the cap", "label": "Annotator’s" },
+        { "name": "take_models", "keys": ["S"], "words": "Take the model’s (second annotator’s): its outline, its cap, or no cap", "label": "Model’s", "second": { "words": "Take the second annotator’s, {}: the outline with its mark, the cap, or no cap", "label": "Second’s" } },
+        { "name": "take_annotators", "keys": ["U"], "words": "Take the annotator’s: approve the cap", "label": "Annotator’s", "second": { "words": "Take the first annotator’s: approve the cap, turn down what {} alone has", "label": "First’s" } },
         { "name": "approve", "keys": ["Shift+Enter"], "words": "Approve the image and go to the next", "label": "Approve" },
         { "name": "send_back", "keys": ["Shift+R"], "words": "Send it back with a comment", "label": "Send back" },
         { "name": "reject", "keys": ["Shift+X"], "words": "Reject it with a reason", "label": "Reject" },
         { "name": "comment", "keys": ["Shift+C"], "words": "Comment on the selected cap or the image", "label": "Comment" },
         { "name": "mark_again", "keys": ["Shift+O"], "words": "Mark caps again that you are asked for", "label": "Mark again" },
         { "name": "magnify", "keys": ["Y"], "words": "Errors of centres ten times as long, or as they are", "label": "Errors × 10" },
-        { "name": "blink", "keys": ["Shift+L"], "words": "Drawn and predicted outlines in turn, or both", "label": "Blink" }
+        { "name": "blink", "keys": ["Shift+L"], "words": "Drawn and predicted outlines in turn, or both", "label": "Blink", "second": { "words": "What was drawn and what {} has in turn, or both", "label": "Blink" } }
       ]
     }
   ],

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Error as NotThere
-from playwright.sync_api import Locator
+from playwright.sync_api import Locator, expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -119,6 +119,11 @@ def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the
     groups = tab.page.get_by_role("table", name="Groups of caps")
     adas = groups.get_by_role("row", name="Ada")
     assert adas.inner_text().split()[3:] == ["12", "3", "3"]
+    for by in ("size", "visible share", "circle or polygon", "run", "annotator"):
+        choose(tab, "Figures by", by)
+        expect(adas).to_have_count(1 if by == "annotator" else 0, timeout=30_000)
+        rows = groups.locator("tbody").get_by_role("row").all_inner_texts()
+        assert sum(int(row.split()[-3]) for row in rows) == 12, "groups add up to the whole"
     adas.get_by_role("button", name="3", exact=True).first.click()
     caps = tab.page.get_by_role("group", name="Caps of all images")
     caps.get_by_text("1–3 of 3. Annotated, and not predicted.").wait_for()

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
@@ -15,7 +16,7 @@ from fairyring.storage.contents import load_annotation
 from fairyring.storage.project import open_project
 from fairyring.storage.records import Repeat, Rules
 from fairyring.storage.repeats import all_repeats, due_repeat
-from fairyring.storage.rules import set_rules
+from fairyring.storage.rules import rules_of, set_rules
 from tests.support.annotated_beds import RADIUS, make_annotated_beds
 
 OpenTab = Callable[..., Tab]
@@ -88,6 +89,8 @@ def test_caps_are_marked_again_mirrored_and_what_comes_of_it_is_no_label(
     assert repeat.second.r == pytest.approx(RADIUS, abs=1)
     tab.press("Escape")
     dialog.wait_for(state="detached")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_label("Marked again").get_by_role("row", name="Ada").wait_for()
     assert tab.state("image.id") == 1
     assert tab.state("waiting") == 0
     with open_project(project) as opened, opened.read() as connection:
@@ -96,8 +99,16 @@ def test_caps_are_marked_again_mirrored_and_what_comes_of_it_is_no_label(
     assert (cap.cap.mark, cap.revision) == (first, 1)
 
 
-def test_whoever_finishes_an_image_is_asked_for_one_cap_of_another(server: Server, open_tab: OpenTab) -> None:
+def test_whoever_finishes_an_image_is_asked_for_one_cap_of_another(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
     tab = open_tab(server, name="Ada")
+    tab.page.get_by_role("tab", name="Review").click()
+    tab.page.get_by_text("Rules of this project").click()
+    expect(tab.page.get_by_label("Mark again %")).to_have_value("100", timeout=30_000)
+    tab.page.get_by_label("Seed of these").fill("7")
+    tab.press("Tab")
+    tab.page.evaluate("document.activeElement.blur()")
     assert tab.state("image.id") == 1
     tab.press("Control+Enter")
     tab.page.get_by_role("alertdialog").wait_for()
@@ -107,6 +118,8 @@ def test_whoever_finishes_an_image_is_asked_for_one_cap_of_another(server: Serve
     tab.press("Escape")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("No cap was marked again yet").wait_for()
+    with open_project(project) as opened, opened.read() as connection:
+        assert rules_of(connection).repeat_seed == 7
 
 
 WATCH = """() => {

@@ -37,7 +37,7 @@ DRAWINGS = {
         project  images  contents  predictions  runs  provenance  comparisons  derived  ledger
         repeats  compared_runs  second_versions
         change_sets  verdicts  rules  queues  candidates  compared_caps  stored_caps  review_figures
-        cap_groups  compared_classes
+        cap_groups  compared_classes  images_seen
         db  cap_validity  open_predictions  originals
         serving  whole_folders
         records  errors  folder  choices

@@ -92,7 +92,7 @@
  * @property {number} image
  * @property {ComparedCap[]} caps
  * @property {Annotation[]} turned_down
- * @property {boolean} second
+ * @property {string | null} second
  */
 
 /**

@@ -41,8 +41,8 @@ export class Review {
   decided = new Map();
   /** The image that `caps` are of. */
   image = 0;
-  /** Whether a second annotator's caps stand for predictions. */
-  second = false;
+  /** What a second annotator's version is called, where its caps stand for predictions. @type {string | null} */
+  second = null;
 
   get on() {
     return this.#on;
@@ -64,8 +64,8 @@ export class Review {
     this.changed.emit();
   }
 
-  /** What the server has found. @type {(image: number, caps: ComparedCap[], second?: boolean) => void} */
-  take(image, caps, second = false) {
+  /** What the server has found. @type {(image: number, caps: ComparedCap[], second?: string | null) => void} */
+  take(image, caps, second = null) {
     if (image !== this.image) this.decided.clear();
     this.image = image;
     this.caps = caps;

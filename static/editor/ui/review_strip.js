@@ -41,7 +41,7 @@ export function reviewStripIn(host, state, review) {
     counter.textContent = known ? countWords(new Standing(state, review)) : "Comparing…";
     kind.textContent = cap ? kindWords(state, review, cap) : "";
     first.lastChild?.replaceWith(review.second ? "first annotator’s" : "annotator’s");
-    other.lastChild?.replaceWith(review.second ? "second annotator’s" : "model’s");
+    other.lastChild?.replaceWith(review.second ? `second annotator’s: ${review.second}` : "model’s");
     keys.replaceChildren(...keysOf(KEYS, review.second));
     centres.lastChild?.replaceWith(`between centres${review.times > 1 ? ` × ${review.times}` : ""}`);
   };
@@ -65,20 +65,22 @@ export function countWords({ at, done, total, left }) {
 export function kindWords(state, review, cap) {
   const { annotation, prediction, iou, cdr, floor } = cap;
   const isMoved = partnerOf(state, review, cap) !== null;
-  if (annotation && !prediction) return isMoved ? "missed: moved off its prediction" : `missed: the ${review.second ? "second annotator" : "model"} has no such cap`;
+  if (annotation && !prediction) return isMoved ? "missed: moved off its prediction" : `missed: ${review.second ?? "the model"} has no such cap`;
   if (!annotation && prediction) {
     if (isMoved) return "extra: its cap was moved away";
-    return heirsIn(state.store).get(prediction.id)?.deleted ? "extra: turned down" : "extra: nobody has drawn it";
+    if (heirsIn(state.store).get(prediction.id)?.deleted) return "extra: turned down";
+    return review.second ? `extra: only ${review.second} has it` : "extra: nobody has drawn it";
   }
   const centres = cdr === null ? "no mark" : `CDR ${cdr.toFixed(2)} %, floor ${floor?.toFixed(2) ?? "–"} %`;
   return `${centres}, IoU ${iou?.toFixed(2) ?? "–"}`;
 }
 
-/** The keys of commands, each with what it does. @type {(names: string[], second: boolean) => HTMLElement[]} */
+/** The keys of commands, each with what it does, to a second annotator's version where one is compared. @type {(names: string[], second: string | null) => HTMLElement[]} */
 function keysOf(names, second) {
-  const declared = DECLARED.groups.flatMap(({ commands }) => commands).filter(({ name }) => names.includes(name));
-  return declared.map(({ name, keys: [key = ""], label }) => {
-    const words = second && name === "take_models" ? "Second’s" : second && name === "take_annotators" ? "First’s" : (label ?? "");
+  /** @type {{name: string, keys: string[], label?: string, second?: {label: string}}[]} */
+  const declared = DECLARED.groups.flatMap(({ commands }) => commands);
+  return declared.filter(({ name }) => names.includes(name)).map(({ keys: [key = ""], label = "", second: besides }) => {
+    const words = (second !== null && besides?.label) || label;
     return element("span", {}, element("kbd", { text: key }), document.createTextNode(` ${words}`));
   });
 }

@@ -23,10 +23,12 @@ def square(number: int, x: float, **keys: Any) -> dict[str, Any]:
     return own | {"circle": [x + 10, 20.0, 10.0]} | keys
 
 
-def write(path: Path, caps: list[dict[str, Any]], *, photo: str = "bed.png") -> Path:
-    image = {"id": 1, "file_name": photo, "width": 200, "height": 100}
+def write(path: Path, caps: list[dict[str, Any]], *, photos: tuple[str, ...] = ("bed.png",)) -> Path:
+    """The caps are those of the first photo."""
+    size = {"width": 200, "height": 100}
+    images = [{"id": nth, "file_name": name} | size for nth, name in enumerate(photos, start=1)]
     categories = [{"id": 1, "name": "mushroom"}]
-    path.write_text(json.dumps({"images": [image], "annotations": caps, "categories": categories}))
+    path.write_text(json.dumps({"images": images, "annotations": caps, "categories": categories}))
     return path
 
 
@@ -45,7 +47,7 @@ def folder(tmp_path: Path, bens: Path) -> Path:
         cv2.imwrite(str(tmp_path / name), np.full((100, 200, 3), len(name) * 10, np.uint8))
     caps = [square(1, 10.0), square(2, 50.0), square(3, 100.0, ignored=True), square(4, 150.0)]
     anns = write(tmp_path / "ann.json", caps)
-    others = write(tmp_path / "others.json", [square(1, 10.0)], photo="other.png")
+    others = write(tmp_path / "others.json", [square(1, 10.0)], photos=("other.png",))
     project = create_project(tmp_path / "project")
     import_paths(project, [tmp_path / "bed.png", tmp_path / "other.png", anns, others])
     import_paths(project, [bens], as_=ImportAs.second)
@@ -84,8 +86,45 @@ def test_with_a_run_ignored_caps_are_left_out_and_nothing_is_claimed_of_them(
     assert elsewhere.is_file()
 
 
+def test_photos_on_which_the_second_annotator_labelled_nothing_count_where_their_file_lists_them(
+    folder: Path, tmp_path: Path
+) -> None:
+    cals = write(tmp_path / "cal.json", [square(7, 10.0)], photos=("bed.png", "other.png"))
+    assert fairyring("import", folder, cals, "--as", "second").exit_code == 0
+    cals.unlink()
+    found = json.loads(fairyring("review", folder, "--second", "cal.json", "--json").stdout)["two_annotators"]
+    # Of Ann's three that count Cal has the first; he left out her one on the other photo.
+    assert (found["matched"], found["only_first"], found["only_second"]) == (1, 3, 0)
+    assert [(each["file_name"], each["only_first"]) for each in found["images"]] == [
+        ("bed.png", 2),
+        ("other.png", 1),
+    ]
+    seen = json.loads(fairyring("runs", "show", folder, "cal.json", "--json").stdout)
+    assert (seen["images"], seen["files"]) == (2, ["bed.png", "other.png"])
+
+
+def test_a_review_against_a_second_annotator_is_of_the_photos_that_theirs_is_of(
+    folder: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "report.html"
+    found = json.loads(fairyring("review", folder, "--run", "ben.json", "--json", "--report", out).stdout)
+    assert [(each["file_name"], each["missed"]) for each in found["images"]] == [("bed.png", 1)]
+    page = out.read_text()
+    for told in (
+        "Held against ben.json, which a second annotator labelled.",
+        "Contours of both annotators",
+        "bed.png: ben.json",
+        "Magenta: ben.json.",
+        "Marked caps that ben.json has, too",
+    ):
+        assert told in page
+    assert "predicted" not in page.replace("how far the predicted centre of a cap lies", "").replace(
+        "predictions near it", ""
+    )
+
+
 def test_what_has_no_photo_in_common_is_refused(folder: Path, tmp_path: Path) -> None:
-    strange = write(tmp_path / "strange.json", [square(1, 10.0)], photo="elsewhere.png")
+    strange = write(tmp_path / "strange.json", [square(1, 10.0)], photos=("elsewhere.png",))
     assert "no image in common" in sentence(fairyring("review", folder, "--second", strange))
     assert "There is no run called nobody" in sentence(fairyring("review", folder, "--second", "nobody"))
 

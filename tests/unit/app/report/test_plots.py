@@ -8,11 +8,14 @@ from itertools import pairwise
 
 import pytest
 
-from fairyring.app.report.plots import MOST_BARS, SIDE, Bar, cdr_bars, round_numbers, shifts
+from fairyring.app.report.bars import IN_A_ROW, MOST_ROWS, Bar, cdr_bars, round_numbers, rows_of_bars
+from fairyring.app.report.drawing import file_of
+from fairyring.app.report.plots import SIDE, shifts
 
 
 def bars(names: list[str]) -> str:
-    return cdr_bars([Bar(name=name, cdr=0.4, floor=0.2) for name in names], what="CDR").html
+    measured = [Bar(name=name, cdr=0.4, floor=0.2) for name in names]
+    return cdr_bars(measured, what="CDR", others="the table").html
 
 
 @pytest.mark.parametrize(
@@ -23,7 +26,7 @@ def test_an_axis_has_round_numbers(top: float, numbers: list[float]) -> None:
     assert round_numbers(top, most=5) == numbers
 
 
-@pytest.mark.parametrize("count", [1, 5, MOST_BARS])
+@pytest.mark.parametrize("count", [1, 5, IN_A_ROW])
 def test_every_bar_has_its_name_and_none_lies_on_the_next(count: int) -> None:
     names = [f"a_rather_long_name_{nth:03}.jpg" for nth in range(count)]
     html = bars(names)
@@ -40,8 +43,28 @@ def test_short_names_lie_and_long_ones_stand_and_lose_their_middle() -> None:
     assert "…xxxxxfirst.jpg" in html
 
 
-def test_of_more_bars_than_have_room_the_caption_says_how_many_there_are() -> None:
-    assert f"The first {MOST_BARS} of {MOST_BARS + 1}." in bars(["bar"] * (MOST_BARS + 1))
+def test_the_300_caps_of_a_dense_bed_stand_in_five_rows_of_one_scale_with_all_their_names() -> None:
+    names = [f"cap {nth}" for nth in range(1, 301)]
+    html = bars(names)
+    assert html.count("<svg") == 5
+    assert re.findall(r"<title>(cap \d+):", html) == names
+    assert {svg.count("<title>") for svg in html.split("</svg>")[:-1]} == {60}
+    assert "The other" not in html
+    # 0.4 of 0.42 in all rows: a bar is as high in each.
+    assert len(set(re.findall(r'<rect [^>]*height="([\d.]+)"', html))) == 1
+
+
+def test_of_more_bars_than_have_room_the_caption_says_how_many_others_there_are_and_where() -> None:
+    assert " The other 3 stand in the table." in bars(["bar"] * (IN_A_ROW * MOST_ROWS + 3))
+
+
+def test_rows_of_bars_are_kept_below_each_other_in_one_file() -> None:
+    rows = rows_of_bars([Bar(name=f"cap {nth}", cdr=0.4, floor=None) for nth in range(100)], what="CDR")
+    file = file_of(rows, "rect { fill: red; }")
+    high = [each.height for each in rows]
+    assert f'viewBox="0 0 720 {sum(high)}"' in file
+    assert re.findall(r' y="(\d+)" role', file) == ["0", str(high[0])]
+    assert 'viewBox="0 0 0 0"' in file_of([], "")
 
 
 def test_the_ellipse_of_shifts_lies_within_its_frame() -> None:
