@@ -167,7 +167,7 @@ function mean(numbers) {
   return numbers.reduce((sum, each) => sum + each, 0) / numbers.length;
 }
 
-/** Every so manieth of some points. @type {(points: Point[], step: number) => Point[]} */
+/** The first of some points, and every `step`th after it. @type {(points: Point[], step: number) => Point[]} */
 function every(points, step) {
   return points.filter((_, i) => i % step === 0);
 }

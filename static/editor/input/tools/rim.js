@@ -1,7 +1,7 @@
 /**
  * Redraws a stretch of a cap's rim with one stroke, which begins and ends on it: along the rim it puts that
- * right, outside it adds to the cap, inside it cuts from it. The cap is the selected one, else the one whose
- * rim is nearest to where the stroke begins. Where the stroke runs along a neighbour's rim the two share a
+ * right, outside it adds to the cap, inside it cuts from it. The cap is the selected one, else the one to whose
+ * rim both ends are nearest and along which the stroke runs. Where the stroke runs along a neighbour's rim the two share a
  * border, and what it adds beyond that its neighbours lose.
  *
  * @module
