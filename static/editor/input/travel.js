@@ -45,8 +45,9 @@ export function travelIn(state, { open, say, tell }) {
   });
   return {
     /** @type {(travelled: Travelled) => void} */
-    travelled({ image, way, changes, ofStatus, stayed }) {
-      const words = wordsOfChanges(way === "undo" ? changes.map(turned) : changes, ofStatus);
+    travelled({ image, way, changes, stayed }) {
+      // Of a status the server says what it is again.
+      const words = wordsOfChanges(way === "undo" ? changes.map(turned) : changes);
       if (words) tell(`${DONE[way]}: ${words}.`);
       if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
       if (image !== state.image?.id) return open(image, null);

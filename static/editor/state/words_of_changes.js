@@ -12,16 +12,13 @@ import { same } from "../geometry/same.js";
 
 /**
  * @param {Became[]} changes
- * @param {boolean} ofStatus  whether the status of the image was changed as well
  * @returns {string}  "" where nothing was
  */
-export function wordsOfChanges(changes, ofStatus) {
+export function wordsOfChanges(changes) {
   /** How many there are of each kind, the kinds in the order in which they occur. @type {Map<string, number>} */
   const counts = new Map();
   for (const change of changes) for (const words of kindsOf(change)) counts.set(words, (counts.get(words) ?? 0) + 1);
-  const parts = [...counts].map(([words, count]) => counted(words, count));
-  if (ofStatus) parts.push("changed the status of the image");
-  return parts.join(", ");
+  return [...counts].map(([words, count]) => counted(words, count)).join(", ");
 }
 
 /** With one cap or prediction for the sign in it, or so many. @type {(words: string, count: number) => string} */

@@ -15,7 +15,7 @@ import { Recalling, changeSetOf } from "./recalling.js";
 /** @typedef {import("./local.js").Local} Local */
 /** @typedef {"undo" | "redo"} Way */
 
-/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], ofStatus: boolean, stayed: number}} Travelled */
+/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], stayed: number}} Travelled */
 
 /**
  * @typedef {Object} Wires
@@ -92,8 +92,7 @@ export class Travelling {
     const possible = overtaken ? { ...move, status: null } : move;
     if (possible.changes.length === 0 && !possible.status) return this.#travel(way, image);
     this.#carryOut(image, id, possible);
-    const { changes, status } = possible;
-    this.#wires.travelled({ image, way, changes, ofStatus: status !== null, stayed: 0 });
+    this.#wires.travelled({ image, way, changes: possible.changes, stayed: 0 });
   }
 
   /** Takes back a change set of the image's history, whoever made it. @type {(image: number, changeSet: number) => void} */
@@ -145,12 +144,7 @@ export class Travelling {
     else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status });
     if (move.changes.length || move.status)
       this.#carryOut(this.#local.image, id, anew ? { ...move, takesBack: "" } : move);
-    this.#wires.travelled({
-      image: this.#local.image,
-      way,
-      changes: move.changes,
-      ofStatus: move.status !== null,
-      stayed: reversal.changed_since,
-    });
+    const { changes } = move;
+    this.#wires.travelled({ image: this.#local.image, way, changes, stayed: reversal.changed_since });
   }
 }
