@@ -7,6 +7,7 @@ from functools import partial
 from fairyring.app.addresses import review_address
 from fairyring.app.how_many import how_many
 from fairyring.app.panels.counted import counted, titles_of
+from fairyring.app.panels.gallery import BY_WORDS
 from fairyring.app.panels.markup import EMPTY, Content, Markup, element
 from fairyring.app.panels.review_found import USUAL, Review, Wanted
 from fairyring.app.panels.status import run_badge
@@ -131,8 +132,11 @@ def _mean_of_caps(figure: str) -> Content:
 
 
 def _groups(review: Review, by: By | None) -> Markup | None:
-    if not review.groups or by is None:
+    if by is None:
         return None
+    if not review.groups:
+        what = BY_WORDS[by]
+        return element("div", f"Of no image that counts the {what} is known yet.", class_="fr-quiet")
     titles = {"": None, "CDR %": 46, "Floor": 40, "Caps": 42, "Missed": 46, "Extra": 38}
     rows = (
         element(

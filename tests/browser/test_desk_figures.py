@@ -11,8 +11,10 @@ from playwright.sync_api import Locator, expect
 
 from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
+from fairyring.storage.images import set_light_and_form
+from fairyring.storage.project import open_project
 from tests.support.annotated_beds import make_annotated_beds, uid_of
-from tests.support.desk import choose, on_image, selected
+from tests.support.desk import choose, on_image, selected, status_of
 
 OpenTab = Callable[..., Tab]
 
@@ -45,7 +47,7 @@ def hover_until_named(tab: Tab, words: Locator, *, across: float) -> None:
 
 
 def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
-    server: Server, open_tab: OpenTab
+    project: Path, server: Server, open_tab: OpenTab
 ) -> None:
     tab = open_tab(server, name="Rev")
     tab.page.get_by_role("tab", name="Review").click()
@@ -99,11 +101,18 @@ def test_the_worst_caps_of_all_images_and_what_is_counted_lead_to_the_caps(
     assert len(tab.state("shapes")) == 6
     tab.press("Shift+Enter")
     tab.page.get_by_text("You have changed caps of bed_2.png").wait_for()
+    other = open_tab(server, name="Zoe")
+    other.open("bed_2.png")
+    other.press("Shift+Enter")
+    other.page.get_by_text("Approved bed_2.png.").wait_for()
+    assert status_of(project, 2) == "approved"
 
 
 def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the_cap(
-    server: Server, open_tab: OpenTab
+    project: Path, server: Server, open_tab: OpenTab
 ) -> None:
+    with open_project(project) as opened:
+        opened.write(lambda connection: set_light_and_form(connection, 2, light=None, form="b"))
     tab = open_tab(server, name="Rev")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_role("button", name="Bring up to date").click()
@@ -119,7 +128,9 @@ def test_figures_can_be_grouped_kept_and_plotted_and_a_click_on_a_plot_opens_the
     groups = tab.page.get_by_role("table", name="Groups of caps")
     adas = groups.get_by_role("row", name="Ada")
     assert adas.inner_text().split()[3:] == ["12", "3", "3"]
-    for by in ("size", "visible share", "circle or polygon", "run", "annotator"):
+    choose(tab, "Figures by", "light")
+    tab.page.get_by_text("Of no image that counts the light is known yet.").wait_for()
+    for by in ("form", "size", "visible share", "circle or polygon", "run", "annotator"):
         choose(tab, "Figures by", by)
         expect(adas).to_have_count(1 if by == "annotator" else 0, timeout=30_000)
         rows = groups.locator("tbody").get_by_role("row").all_inner_texts()

@@ -34,7 +34,10 @@ def test_a_queue_is_gone_through_with_the_agreement_and_taken_up_again_after_a_r
     tab.page.get_by_text("3 images wait for a review.").wait_for()
     choose(tab, "Queue by", "edited since approved")
     tab.page.get_by_text("No image fits this queue").wait_for()
-    choose(tab, "Queue by", "network least sure")
+    for order in ("CDR over its floor", "least overlap", "most missed", "most extra", "network least sure"):
+        choose(tab, "Queue by", order)
+        tab.page.get_by_text("3 images fit this queue.").wait_for()
+    choose(tab, "Annotator", "Ada")
     tab.page.get_by_text("3 images fit this queue.").wait_for()
     tab.page.get_by_role("button", name="Begin").click()
     tab.page.get_by_text("0 of 3 done").wait_for()

@@ -18,6 +18,7 @@ from fairyring.storage.records import Repeat, Rules
 from fairyring.storage.repeats import all_repeats, due_repeat
 from fairyring.storage.rules import rules_of, set_rules
 from tests.support.annotated_beds import RADIUS, make_annotated_beds
+from tests.support.tab import until
 
 OpenTab = Callable[..., Tab]
 OFF = 3.0
@@ -30,6 +31,11 @@ def project(tmp_path: Path) -> Path:
     with open_project(path) as opened:
         opened.write(lambda connection: set_rules(connection, Rules(repeat_share=1.0)))
     return path
+
+
+def rules(project: Path) -> Rules:
+    with open_project(project) as opened, opened.read() as connection:
+        return rules_of(connection)
 
 
 def kept(project: Path) -> list[Repeat]:
@@ -118,8 +124,10 @@ def test_whoever_finishes_an_image_is_asked_for_one_cap_of_another(
     tab.press("Escape")
     tab.page.get_by_role("tab", name="Review").click()
     tab.page.get_by_text("No cap was marked again yet").wait_for()
-    with open_project(project) as opened, opened.read() as connection:
-        assert rules_of(connection).repeat_seed == 7
+    assert rules(project).repeat_seed == 7
+    tab.page.get_by_label("Mark again %").fill("50")
+    tab.press("Tab")
+    until(lambda: rules(project).repeat_share == 0.5, "the share")
 
 
 WATCH = """() => {
