@@ -1,6 +1,7 @@
 """What holds for all tests."""
 
 import os
+from collections.abc import Generator
 from typing import Any
 
 import pytest
@@ -22,6 +23,20 @@ class _PagesByFile(LoadScopeScheduling):
         if nodeid.startswith("tests/bench/"):
             return "tests/bench"
         return nodeid.split("::", maxsplit=1)[0] if nodeid.startswith("tests/browser/") else nodeid
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_report_to_serializable() -> Generator[None, Any, Any]:
+    """Half a character in the report of a failing test would end the whole run, unsaid which test it was."""
+    return _encodable((yield))
+
+
+def _encodable(value: Any) -> Any:
+    if isinstance(value, str):
+        return value.encode(errors="backslashreplace").decode()
+    if isinstance(value, dict):
+        return {_encodable(key): _encodable(each) for key, each in value.items()}
+    return type(value)(map(_encodable, value)) if type(value) in (list, tuple) else value
 
 
 @pytest.hookimpl(optionalhook=True)

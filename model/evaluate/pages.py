@@ -19,7 +19,7 @@ from fairyring.model.coco.images import ImageEntry, read_images, size_of
 from fairyring.model.errors import FairyringError
 from fairyring.model.evaluate.caps import CapRecord, cap_of
 from fairyring.model.evaluate.image_pairs import Pairing, named_images, partners_of
-from fairyring.model.json_values import base_name, text
+from fairyring.model.json_values import base_name, shown, text
 
 
 class DocumentError(FairyringError):
@@ -149,7 +149,7 @@ def _partners(
     # One side is a list, which names images by the other's ids.
     numbers = {image.id for image in listed.values()}
     told = of_prediction if predicted_images is None else of_truth
-    strange = [str(number) for number in told if number not in numbers]
+    strange = [shown(number) for number in told if number not in numbers]
     if told and len(strange) == len(told):
         raise DocumentError(
             f"The two have no image in common: the list is of image {strange[0]}, "

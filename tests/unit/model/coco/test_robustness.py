@@ -106,6 +106,7 @@ def test_contour_answers_the_good_annotation_beside_the_bad_one(bad: list[Any]) 
 
 @ROUNDS
 @given(bad=entries, more=st.lists(images | anything, max_size=2), whole=anything)
+@example(bad=[{"image_id": "\ud800"}], more=[], whole=None)
 def test_an_evaluation_ends_in_figures_or_in_one_sentence(
     bad: list[Any], more: list[Any], whole: Any
 ) -> None:
