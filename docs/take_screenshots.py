@@ -150,6 +150,8 @@ def _circle_loosely(tab: Tab, cap: dict) -> None:
     tab.press("Delete", "c")
     tab.drag((x + 3, y - 3), (x + 3 + 1.1 * radius, y - 3))
     tab.wait_for("window.fairyring.state.suggestion")
+    # What was taken back before is said for a while.
+    tab.page.locator(".fairyring-notice").first.wait_for(state="detached")
     _take(tab, "rim")
     tab.press("Escape", "v", "Control+z", "Control+z")
     tab.saved()
