@@ -133,11 +133,12 @@ def _brought_together(views: Sequence[Found]) -> Found:
     right = max(each.x + each.logits.shape[1] for each in windows)
     bottom = max(each.y + each.logits.shape[0] for each in windows)
     mean = np.zeros((bottom - top, right - left), np.float32)
+    weight = sum(one.score for one in views)
     for one, window in zip(views, windows, strict=True):
         # What lies beyond a window is surely none of the cap's.
         seen = np.full(mean.shape, -MOST_LOGIT, np.float32)
         height, width = window.logits.shape
         row, column = window.y - top, window.x - left
         seen[row : row + height, column : column + width] = window.logits.clip(-MOST_LOGIT, MOST_LOGIT)
-        mean += np.float32(one.score / sum(each.score for each in views)) * seen
+        mean += np.float32(one.score / weight) * seen
     return replace(views[0], window=Window(x=left, y=top, logits=mean))

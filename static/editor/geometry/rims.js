@@ -45,6 +45,7 @@ const LEAST_AREA = 1;
  * @property {Point[]} line  the stroke, from rim to rim
  * @property {number} beside  how far the stroke is from being about this ring, image pixels
  */
+/** Which part of a cap is redrawn, and how. @typedef {{part: number, redrawing: Redrawing}} Found */
 
 /**
  * The cap with a stretch of its visible outline (of its polygon mark, where nothing is visible) redrawn; null
@@ -57,14 +58,19 @@ const LEAST_AREA = 1;
  */
 export function redrawnCap(cap, stroke, how) {
   const found = redrawingOf(cap, stroke, how);
-  const ring = found && redrawnBy(found.redrawing, how);
-  return ring ? withRings(cap, ringsOf(cap).with(found.part, ring)) : null;
+  return found && redrawnAs(cap, found, how);
+}
+
+/** The cap once that is done to it; null where nothing would be left. @type {(cap: Cap, found: Found, how: How) => Cap | null} */
+export function redrawnAs(cap, { part, redrawing }, how) {
+  const ring = redrawnBy(redrawing, how);
+  return ring && withRings(cap, ringsOf(cap).with(part, ring));
 }
 
 /**
  * Which part of a cap a stroke is about, and what it would do to that; null where it is about none.
  *
- * @type {(cap: Cap, stroke: Point[], how: How) => {part: number, redrawing: Redrawing} | null}
+ * @type {(cap: Cap, stroke: Point[], how: How) => Found | null}
  */
 export function redrawingOf(cap, stroke, how) {
   const rings = ringsOf(cap).slice(0, cap.visible.length || undefined);

@@ -1,8 +1,8 @@
 /**
  * Redraws a stretch of a cap's rim with one stroke, which begins and ends on it: along the rim it puts that
  * right, outside it adds to the cap, inside it cuts from it. The cap is the selected one, else the one to whose
- * rim both ends are nearest and along which the stroke runs. Where the stroke runs along a neighbour's rim the two share a
- * border, and what it adds beyond that its neighbours lose.
+ * rim both ends are nearest and along which the stroke runs. Where the stroke runs along a neighbour's rim the
+ * two share a border, and what it adds beyond that its neighbours lose.
  *
  * @module
  */
@@ -10,7 +10,7 @@
 import { boundsOfPoints, grown } from "../../geometry/bounds.js";
 import { leftOf, snapped } from "../../geometry/borders.js";
 import { areaOf, without } from "../../geometry/regions.js";
-import { redrawingOf, redrawnCap } from "../../geometry/rims.js";
+import { redrawingOf, redrawnAs } from "../../geometry/rims.js";
 import { isPrediction, withCap } from "../../geometry/shapes.js";
 import { changed } from "../../state/changes.js";
 import { StrokeTool, aroundStroke } from "./stroke.js";
@@ -51,32 +51,34 @@ function withRimAt(state, point) {
 function redrawn(state, stroke, other) {
   const { scale } = state.viewport.view;
   const how = { reach: REACH_PX / scale, tolerance: STRAYS_PX / scale, other };
-  const before = meantBy(state, stroke, how);
-  if (!before) return null;
+  const meant = meantBy(state, stroke, how);
+  if (!meant) return null;
+  const { shape: before, found } = meant;
   const neighbours = neighboursOf(state, before, stroke);
   const rims = neighbours.flatMap(({ cap }) => cap.visible);
-  const cap = redrawnCap(before.cap, stroke, { ...how, along: (line) => snapped(line, rims, SNAP_PX / scale) });
+  const cap = redrawnAs(before.cap, found, { ...how, along: (line) => snapped(line, rims, SNAP_PX / scale) });
   if (!cap) return null;
   const losses = lossesOf(neighbours, without(cap.visible, before.cap.visible));
   const note = losses.length ? `takes from ${losses.length === 1 ? "its neighbour" : "its neighbours"}` : "";
-  const { replaced } = redrawingOf(before.cap, stroke, how)?.redrawing ?? { replaced: [] };
+  const { replaced } = found.redrawing;
   return { changes: [changed(before, withCap(before, cap)), ...losses], replaced, note };
 }
 
 /**
  * The cap that a stroke is about: the selected one, else of those around it the one to whose rim both ends are
- * nearest and along which the stroke runs.
+ * nearest and along which the stroke runs; and what the stroke would do to it.
  *
- * @type {(state: EditorState, stroke: Point[], how: import("../../geometry/rims.js").How) => Shape | null}
+ * @type {(state: EditorState, stroke: Point[], how: import("../../geometry/rims.js").How) => {shape: Shape, found: import("../../geometry/rims.js").Found} | null}
  */
 function meantBy(state, stroke, how) {
-  const { sole } = state;
-  if (sole && redrawingOf(sole.cap, stroke, how)) return sole;
-  const found = aroundStroke(state, stroke, how.reach).flatMap((shape) => {
-    const about = redrawingOf(shape.cap, stroke, how);
-    return about ? [{ shape, beside: about.redrawing.beside }] : [];
-  });
-  return found.sort((a, b) => a.beside - b.beside)[0]?.shape ?? null;
+  const about = (/** @type {Shape} */ shape) => {
+    const found = redrawingOf(shape.cap, stroke, how);
+    return found ? [{ shape, found }] : [];
+  };
+  const [own] = state.sole ? about(state.sole) : [];
+  if (own) return own;
+  const all = aroundStroke(state, stroke, how.reach).flatMap(about);
+  return all.sort((a, b) => a.found.redrawing.beside - b.found.redrawing.beside)[0] ?? null;
 }
 
 /** The caps that a cap may meet when it is redrawn along a stroke. @type {(state: EditorState, shape: Shape, stroke: Point[]) => Shape[]} */
