@@ -54,37 +54,54 @@ class Commands(TyperGroup):
 
     def invoke(self, ctx: Any) -> Any:
         """Runs the command that was asked for."""
-        try:
-            with _sigterm_as_interrupt(), swallowed_interrupts_again():
-                return super().invoke(ctx)
-        except KeyboardInterrupt as stop:
-            said = str(stop) if isinstance(stop, Stopped) else AFTER.get(ctx.invoked_subcommand, BEGIN_ANEW)
-            typer.echo(f"fairyring: stopped. {said}", err=True)
-            raise typer.Exit(INTERRUPTED) from None
-        except (FairyringError, typer.Exit, typer.Abort, BrokenPipeError):
-            raise
-        except Exception as error:
-            if _is_usage(error) or ctx.params.get("debug"):
+        with _told_to_stop() as told:
+            try:
+                with swallowed_interrupts_again():
+                    return super().invoke(ctx)
+            except KeyboardInterrupt as stop:
+                raise _stopped(ctx, str(stop) if isinstance(stop, Stopped) else "") from None
+            except (FairyringError, typer.Exit, typer.Abort, BrokenPipeError):
                 raise
-            typer.echo(_sentence_on(error), err=True)
-            raise typer.Exit(1) from error
+            except Exception as error:
+                if _is_usage(error) or ctx.params.get("debug"):
+                    raise
+                if told.is_set():
+                    raise _stopped(ctx, "") from error
+                typer.echo(_sentence_on(error), err=True)
+                raise typer.Exit(1) from error
+
+
+def _stopped(ctx: Any, said: str) -> typer.Exit:
+    """Says what was kept, and is what ends the command."""
+    typer.echo(f"fairyring: stopped. {said or AFTER.get(ctx.invoked_subcommand, BEGIN_ANEW)}", err=True)
+    return typer.Exit(INTERRUPTED)
 
 
 @contextmanager
-def _sigterm_as_interrupt() -> Iterator[None]:
-    """Makes SIGTERM act like Ctrl+C; a command may handle it otherwise meanwhile."""
+def _told_to_stop() -> Iterator[threading.Event]:
+    """Whether Ctrl+C or SIGTERM came, which both raise KeyboardInterrupt; a command may handle them otherwise.
+
+    It is remembered because what is raised need not arrive: an import that it meets ends in a TypeError instead.
+    """
+    told = threading.Event()
     if threading.current_thread() is not threading.main_thread():
-        yield
+        yield told
         return
 
     def interrupt(*_: object) -> None:
+        told.set()
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGTERM, interrupt)
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number, handler in before.items():
+        # In the background a shell has Ctrl+C ignored, which stays so.
+        if handler is not signal.SIG_IGN:
+            signal.signal(number, interrupt)
     try:
-        yield
+        yield told
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _is_usage(error: Exception) -> bool:

@@ -1,6 +1,7 @@
 """How commands end that are stopped, or that meet an error nobody foresaw."""
 
 import os
+import signal
 import subprocess
 import time
 from pathlib import Path
@@ -35,6 +36,20 @@ def test_an_error_nobody_foresaw_ends_in_a_sentence_with_a_file_to_report(projec
     assert text.startswith("Fairyring 0.")
     done = CliRunner().invoke(app, ["--debug", "info", str(project)])
     assert isinstance(done.exception, ZeroDivisionError)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda number: number.name)
+def test_a_stop_that_turned_into_another_error_is_a_stop(project, monkeypatch, number):
+    def imported_meanwhile(*_: object) -> None:
+        try:
+            signal.raise_signal(number)
+        except KeyboardInterrupt:
+            raise TypeError("expected a message argument") from None
+
+    monkeypatch.setattr(info, "_lines", imported_meanwhile)
+    done = CliRunner().invoke(app, ["info", str(project)])
+    assert done.exit_code == 130
+    assert done.stderr == "fairyring: stopped. Nothing is lost; the same command begins anew.\n"
 
 
 def test_wrong_use_is_no_error_of_fairyring(project):
