@@ -79,9 +79,9 @@ def _stopped(ctx: Any, said: str) -> typer.Exit:
 
 @contextmanager
 def _told_to_stop() -> Iterator[threading.Event]:
-    """Whether Ctrl+C or SIGTERM came, which both raise KeyboardInterrupt; a command may handle them otherwise.
+    """Whether Ctrl+C or SIGTERM came; both raise KeyboardInterrupt where a command does not handle them.
 
-    It is remembered because what is raised need not arrive: an import that it meets ends in a TypeError instead.
+    It is remembered because what is raised need not arrive: an import it meets ends in a TypeError.
     """
     told = threading.Event()
     if threading.current_thread() is not threading.main_thread():
