@@ -8,21 +8,25 @@ import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
-# As the command does: servers, browsers and networks of tests share the cores. Read when PyTorch is imported.
+# As the command does: servers, browsers and networks of tests share the cores. Both are read when PyTorch is imported.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+if "PYTEST_XDIST_WORKER" in os.environ:
+    # There is a process of tests for each core.
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 # How long an example takes says more about what else the machine does.
 settings.register_profile("unhurried", deadline=None)
 settings.load_profile("unhurried")
 
 
-class _PagesByFile(LoadScopeScheduling):
-    """A process gets whole files of tests of the page, or all measurements; any other test is alone."""
+class _ByFile(LoadScopeScheduling):
+    """A process gets whole files, whose tests share a browser, a project or a network; or all measurements."""
 
     def _split_scope(self, nodeid: str) -> str:
         if nodeid.startswith("tests/bench/"):
             return "tests/bench"
-        return nodeid.split("::", maxsplit=1)[0] if nodeid.startswith("tests/browser/") else nodeid
+        # Of these a test takes up to minutes, and those of a file share little.
+        return nodeid if nodeid.startswith("tests/faults/") else nodeid.split("::", maxsplit=1)[0]
 
 
 @pytest.hookimpl(wrapper=True)
@@ -42,4 +46,4 @@ def _encodable(value: Any) -> Any:
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
     """Several processes share the tests so (docs/decisions/0030)."""
-    return _PagesByFile(config, log)
+    return _ByFile(config, log)
