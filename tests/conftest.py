@@ -8,7 +8,7 @@ import pytest
 from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
-# As the command does: servers, browsers and networks of tests share the cores. Both are read when PyTorch is imported.
+# As the command does: servers, browsers and networks of tests share the cores. PyTorch reads both.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 if "PYTEST_XDIST_WORKER" in os.environ:
     # There is a process of tests for each core.
@@ -20,7 +20,7 @@ settings.load_profile("unhurried")
 
 
 class _ByFile(LoadScopeScheduling):
-    """A process gets whole files, whose tests share a browser, a project or a network; or all measurements."""
+    """A process gets whole files, whose tests share a browser, project or network; or all measurements."""
 
     def _split_scope(self, nodeid: str) -> str:
         if nodeid.startswith("tests/bench/"):
