@@ -6,6 +6,7 @@
  */
 
 import { newId } from "../ids.js";
+import { Answers } from "./answers.js";
 import { statusAfter } from "./edits.js";
 import { Local } from "./local.js";
 import { isOfCap, isOfStatus, isVerdict } from "./outbox.js";
@@ -45,6 +46,7 @@ export class Sync {
   /** The edits in flight, by id, as they were sent. @type {Map<string, Edit>} */
   #flying = new Map();
   #timer = 0;
+  #answers = new Answers();
   #wires;
   #travelling;
 
@@ -100,6 +102,7 @@ export class Sync {
   pause() {
     clearTimeout(this.#timer);
     this.#flying.clear();
+    this.#answers.goOnWithout();
     this.#travelling.lost();
   }
 
@@ -134,14 +137,17 @@ export class Sync {
     this.#carryOut(this.image, id, { takesBack: "", changes, status: null });
   }
 
-  /** Says something of the image on screen, to be undone in one step. @type {(after: Status) => void} */
-  say(after) {
+  /** Says something of the image on screen, to be undone in one step; whether it was not refused. @type {(after: Status) => Promise<boolean>} */
+  async say(after) {
     const [id, before] = [newId(), this.status];
-    if (before === after) return;
+    // The key pressed twice: whoever pressed it first goes on.
+    if (before === after) return !this.#answers.awaited;
     const status = { before, after };
     this.#travelling.done(this.image);
     this.#local.historyOf(this.image).push({ ids: [id], changes: [], status });
+    const answer = this.#answers.to(id);
     this.#carryOut(this.image, id, { takesBack: "", changes: [], status });
+    return answer;
   }
 
   /**
@@ -150,8 +156,9 @@ export class Sync {
    * @param {string | null} annotation
    * @param {import("../protocol.js").Says} says
    * @param {string} words
+   * @returns {Promise<boolean>} whether it was not refused
    */
-  judge(annotation, says, words) {
+  async judge(annotation, says, words) {
     const [changeSet, before] = [newId(), this.status];
     /** @type {import("../protocol.js").Verdict} */
     const verdict = { id: newId(), image: this.image, annotation, says, words, change_set: changeSet };
@@ -160,8 +167,10 @@ export class Sync {
       this.#travelling.done(this.image);
       this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status: { before, after } });
     }
+    const answer = this.#answers.to(changeSet);
     this.#local.outbox.add([verdict]);
-    this.pump();
+    this.#send();
+    return answer;
   }
 
   /** Takes back what was done last here; what this page does not remember the journal does. */
@@ -196,7 +205,11 @@ export class Sync {
   /** @type {(image: number, changeSet: string, move: Move) => void} */
   #carryOut(image, changeSet, move) {
     this.#local.carryOut(image, changeSet, move);
-    this.pump();
+    this.#send();
+  }
+
+  #send() {
+    if (!this.pump()) this.#answers.goOnWithout();
   }
 
   /** Sends what is next, unless something is on its way. @returns {boolean} whether anything is, or could be */
@@ -246,12 +259,14 @@ export class Sync {
     // One that was rewritten meanwhile goes out once more, and this answer is not about it.
     if (!edit || (sent && sent !== edit && outcome.outcome !== "accepted")) return [];
     if (outcome.outcome === "refused") this.#wires.refused(edit, outcome.reason);
+    if (!isOfCap(edit)) this.#answers.come(edit.change_set, outcome.outcome !== "refused");
     return settle(this.#local, edit, outcome);
   }
 
   /** @type {(edit: Edit, reason: string) => void} */
   #refuse(edit, reason) {
     this.#wires.refused(edit, reason);
+    if (!isOfCap(edit)) this.#answers.come(edit.change_set, false);
     this.#apply(refuse(this.#local, edit));
   }
 

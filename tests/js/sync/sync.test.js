@@ -7,6 +7,7 @@ import { Outbox } from "../../../static/editor/sync/outbox.js";
 import { Sync } from "../../../static/editor/sync/sync.js";
 import { capOf, triangle } from "../support/caps.js";
 import { MemoryStorage } from "../support/memory_storage.js";
+import { IMAGE } from "../support/state.js";
 
 /** @typedef {import("../../../static/editor/protocol.js").Edits} Edits */
 
@@ -59,4 +60,34 @@ test("accepting two thousand caps is sent a hundred at a time, and the next hund
   }
   assert.equal(sent.length, 20);
   assert.equal(new Set(sent.flatMap(({ edits }) => edits.map((edit) => edit.change_set))).size, 1);
+});
+
+test("who approves learns whether it was stored, and a second key of the same waits for nothing", async () => {
+  const { sync, sent } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);
+  const approved = sync.say("approved");
+  assert.equal(await sync.say("approved"), false);
+  const [{ id }] = /** @type {Edits} */ (sent.at(-1)).statuses;
+  sync.receive([{ outcome: "status", edit: id, image: 3, status: "approved" }]);
+  assert.equal(await approved, true);
+  assert.equal(sent.length, 1);
+});
+
+test("who approves what is refused learns that, and the image is as it was", async () => {
+  const { sync, sent } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);
+  const approved = sync.say("approved");
+  const [{ id }] = /** @type {Edits} */ (sent.at(-1)).statuses;
+  sync.receive([{ outcome: "refused", edit: id, reason: "You have labelled it." }]);
+  assert.equal(await approved, false);
+  assert.equal(sync.status, "annotated");
+});
+
+test("nobody is held up by a line that is broken: what was said is sent later", async () => {
+  const { sync } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);
+  const sentBack = sync.judge(null, "sent_back", "Caps are missing");
+  sync.pause();
+  assert.equal(await sentBack, true);
+  assert.equal(sync.waiting, 1);
 });

@@ -19,8 +19,8 @@
  * @property {() => void} finish  closes the outline that is half drawn
  * @property {() => void} undo
  * @property {() => void} redo
- * @property {(status: Status) => void} setStatus  of the image on screen
- * @property {(annotation: string | null, says: import("../../protocol.js").Says, words: string) => void} judge  says something of the image on screen, or of a cap of it
+ * @property {(status: Status) => Promise<boolean>} setStatus  of the image on screen; whether it was not refused
+ * @property {(annotation: string | null, says: import("../../protocol.js").Says, words: string) => Promise<boolean>} judge  says something of the image on screen, or of a cap of it; whether it was not refused
  * @property {import("../../state/review.js").Review} review
  * @property {() => void} blink  draws annotations and predictions in turn, or both again
  * @property {(how: {quiet: boolean}) => void} markAgain  asks for caps that are to be marked again

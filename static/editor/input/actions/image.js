@@ -35,7 +35,7 @@ export async function finishImage(context) {
  *
  * @param {Context} context
  * @param {"annotated" | "approved"} status
- * @returns {Promise<boolean>} whether it was said
+ * @returns {Promise<boolean>} whether it was said, and not refused, while the image stayed on screen
  */
 export async function finishAs({ state, setStatus, ask, say }, status) {
   state.commitDrafts();
@@ -49,8 +49,7 @@ export async function finishAs({ state, setStatus, ask, say }, status) {
   const answer = question ? await ask(question) : "yes";
   if (answer === "no" || state.image?.id !== image.id) return false;
   if (answer === "down") turnDown(state);
-  setStatus(status);
-  return true;
+  return (await setStatus(status)) && state.image?.id === image.id;
 }
 
 /** What nobody has accepted is no cap. @type {(state: EditorState) => void} */

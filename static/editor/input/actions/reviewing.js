@@ -98,6 +98,7 @@ async function say({ state, askWords, judge, send }, says, how) {
   const title = how.title.replace("{}", () => image.file_name);
   const said = await askWords({ ...how, title, cap: cap !== null, first: says === "comment" ? "cap" : "image" });
   if (!said || state.image?.id !== image.id) return;
-  judge(said.about === "cap" ? cap : null, says, said.words);
-  if (said.about === "image" && says !== "comment") send({ type: "step", by: 1 });
+  const stored = await judge(said.about === "cap" ? cap : null, says, said.words);
+  const goesOn = said.about === "image" && says !== "comment";
+  if (stored && goesOn && state.image?.id === image.id) send({ type: "step", by: 1 });
 }
