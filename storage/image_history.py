@@ -44,6 +44,8 @@ class ChangeSet(Struct, frozen=True, kw_only=True):
     """The first of its caps: uid, before and after."""
     second: str | None = None
     """The second annotator's version that this one was made from; None where it was not."""
+    outline_of: str | None = None
+    """The run in which the first of its caps has the very outline that it was given; None where none has."""
     taken_back: bool = False
     """Another one has taken it back."""
     kind: Kind = "done"
@@ -91,6 +93,7 @@ def list_change_sets(
     effects, firsts = _effects(connection, numbers), _firsts(connection, numbers)
     statuses, verdicts = _statuses(connection, numbers), verdicts_by_change_set(connection, numbers)
     seconds = _second_versions(connection, [uid for uid, _, _ in firsts.values()])
+    outlines_of = _outlines_of(connection, image_id, firsts)
     return ChangeSetPage(
         change_sets=[
             ChangeSet(
@@ -102,6 +105,7 @@ def list_change_sets(
                 verdict=verdicts.get(row.sequence),
                 first=firsts.get(row.sequence),
                 second=seconds.get(firsts[row.sequence][0]) if row.sequence in firsts else None,
+                outline_of=outlines_of.get(row.sequence),
                 taken_back=row.id in takes_back.values(),
                 kind=_kind(row.id, takes_back),
             )
@@ -259,6 +263,24 @@ def _second_versions(connection: Connection, uids: Sequence[str]) -> dict[str, s
         .where(annotation.c.uid.in_(uids), run.c.kind == "second")
     )
     return {row.uid: row.name for row in found}
+
+
+def _outlines_of(
+    connection: Connection, image_id: int, firsts: Mapping[int, tuple[str, Cap | None, Cap | None]]
+) -> dict[int, str]:
+    """By change set: the latest run that has the outline which it gave to a cap that had another."""
+    given = {
+        number: after.visible
+        for number, (_, before, after) in firsts.items()
+        if before and after and after.visible and before.visible != after.visible
+    }
+    found = connection.execute(
+        select(prediction.c.visible, run.c.name)
+        .join(run, run.c.id == prediction.c.run)
+        .where(prediction.c.image == image_id, prediction.c.visible.in_(list(given.values())))
+        .order_by(run.c.id)
+    ).all()
+    return {number: row.name for number, visible in given.items() for row in found if row.visible == visible}
 
 
 def _statuses(

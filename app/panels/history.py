@@ -135,13 +135,16 @@ def _difference(done: ChangeSet) -> str:
     _, before, after = done.first or ("", None, None)
     if before is None or after is None:
         return ""
-    return " and ".join(_differences(before, after))
+    taken = done.outline_of if done.kind != "undone" else None
+    return " and ".join(_differences(before, after, outline_of=taken))
 
 
-def _differences(before: Cap, after: Cap) -> list[str]:
+def _differences(before: Cap, after: Cap, *, outline_of: str | None) -> list[str]:
     changes = []
     if before.visible != after.visible:
-        changes.append("changed the outline of a cap")
+        changes.append(
+            f"took {outline_of}’s outline of a cap" if outline_of else "changed the outline of a cap"
+        )
     if before.told != after.told:
         changes.append("called a piece of a rim something else")
     if before.mark != after.mark:

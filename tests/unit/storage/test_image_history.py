@@ -123,6 +123,14 @@ def predicted(beds):
     return beds
 
 
+def test_a_change_that_gives_a_cap_a_predicted_outline_names_the_run(predicted):
+    do(predicted, "drawn", ("a", 0, MOVED))
+    do(predicted, "taken", ("a", 1, THERE))
+    do(predicted, "flagged", ("a", 2, Cap(visible=SQUARE, doubtful=True)))
+    told = history_of(predicted).change_sets
+    assert [each.outline_of for each in told] == [None, "r", None]
+
+
 def test_taking_back_a_redone_acceptance_sets_its_prediction_free_again(predicted):
     taken, free = Cap(visible=SQUARE, prediction=1), Cap(visible=SQUARE)
     do(predicted, "accepted", ("a", 0, taken))
