@@ -112,7 +112,10 @@ export class Editor {
       patch: (/** @type {Bounds} */ bounds) => photos.patch(bounds),
       rimIn: this.#found.rimIn.bind(this.#found),
     };
-    const suggestion = new RimSuggestion(state, (shape) => tightened(sight, shape));
+    const suggestion = new RimSuggestion(state, {
+      tightened: (shape) => tightened(sight, shape),
+      tightenedByPhoto: (shape) => tightened({ ...sight, rimIn: async () => null }, shape),
+    });
     const threshold = new Threshold(state);
     const photos = new Photos(() => this.#frame.redrawPhoto());
     this.#frame = new Frame(host, state, photos, () => [
@@ -214,7 +217,7 @@ export class Editor {
     expose(host, {
       state,
       frame: this.#frame,
-      suggested: (shape) => suggestion.of(shape),
+      suggestion: () => suggestion.shown,
       waiting: () => this.#unsaved,
       asking: () => this.#found.busy,
       connection: () => this.#transport.state,

@@ -7,15 +7,14 @@
 import { isPrediction } from "./geometry/shapes.js";
 import { toImage, toScreen } from "./geometry/view.js";
 
-/** @typedef {import("./geometry/shapes.js").Shape} Shape */
 /** @typedef {import("./render/frame.js").Frame} Frame */
 /** @typedef {import("./state/editor_state.js").EditorState} EditorState */
 
 /**
  * @param {HTMLElement} host
- * @param {{state: EditorState, frame: Frame, suggested: (shape: Shape) => unknown, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string, review: import("./state/review.js").Review}} editor
+ * @param {{state: EditorState, frame: Frame, suggestion: () => unknown, waiting: () => number, asking: () => boolean, connection: () => string, tool: () => string, review: import("./state/review.js").Review}} editor
  */
-export function expose(host, { state: editorState, frame, suggested, waiting, asking, connection, tool, review }) {
+export function expose(host, { state: editorState, frame, suggestion, waiting, asking, connection, tool, review }) {
   const { viewport } = editorState;
   const view = {
     /**
@@ -62,10 +61,9 @@ export function expose(host, { state: editorState, frame, suggested, waiting, as
     get fit() {
       return editorState.explanation;
     },
-    /** The one selected cap as it is offered to be. */
+    /** The one selected cap, or the one that is being drawn out, as it is offered to be. */
     get suggestion() {
-      const { sole } = editorState;
-      return sole && suggested(sole);
+      return suggestion();
     },
     get waiting() {
       return waiting();

@@ -167,6 +167,20 @@ def test_the_rim_near_a_circle_is_offered_at_once_and_taken_as_it_is_shown(tab: 
     assert tab.state("suggestion") is None
 
 
+def test_the_rim_near_a_circle_is_shown_while_it_is_dragged(tab: Tab) -> None:
+    tab.press("c")
+    tab.page.mouse.move(*tab.screen((204, 297)))
+    tab.page.mouse.down()
+    tab.page.mouse.move(*tab.screen((254, 297)), steps=6)
+    tab.wait_for("window.fairyring.state.suggestion")
+    shown = tab.state("suggestion")
+    assert shown["mark"]["r"] == pytest.approx(45, abs=1)
+    assert area_of_outline(shown["visible"]) == pytest.approx(math.pi * 45**2, rel=0.04)
+    tab.press("Escape")
+    tab.page.mouse.up()
+    tab.wait_for("!window.fairyring.state.suggestion")
+
+
 def test_what_is_offered_goes_when_another_cap_is_selected(tab: Tab) -> None:
     tab.press("w")
     way = [on(200, 300, 49, degrees) for degrees in range(0, 361, 6)]

@@ -1,6 +1,6 @@
 /**
- * Shows where the rim lies near a cap that was just drawn by hand, until that is changed or another is selected. The
- * key that draws outlines to the rim takes it as it is shown.
+ * Shows where the rim lies near a cap that is being drawn out by hand, and near one that was just drawn, until that is
+ * changed or another is selected. The key that draws outlines to the rim takes it as it is shown then.
  *
  * @module
  */
@@ -18,16 +18,26 @@ const WORDS = "T: to the rim";
 export class RimSuggestion {
   /** The cap that was drawn, its revision then, and the cap as its rim is. @type {{uid: string, revision: number, tight: Cap} | null} */
   #found = null;
+  /** The cap that is being drawn out. @type {Shape | null} */
+  #drawing = null;
+  /** That cap, or as it was a moment ago, as its rim is. @type {Cap | null} */
+  #tightOfDrawing = null;
+  #following = false;
   #state;
   #tightened;
+  #tightenedByPhoto;
 
   /**
    * @param {EditorState} state
-   * @param {(shape: Shape) => Promise<Cap | null>} tightened
+   * @param {Object} how
+   * @param {(shape: Shape) => Promise<Cap | null>} how.tightened
+   * @param {(shape: Shape) => Promise<Cap | null>} how.tightenedByPhoto  without asking the network, which takes too long for every move
    */
-  constructor(state, tightened) {
+  constructor(state, { tightened, tightenedByPhoto }) {
     this.#state = state;
     this.#tightened = tightened;
+    this.#tightenedByPhoto = tightenedByPhoto;
+    state.signals.drawing.listen((shape) => void this.#follow(shape));
     state.signals.drawn.listen((shape) => void this.#look(shape));
   }
 
@@ -42,6 +52,28 @@ export class RimSuggestion {
     this.#state.signals.overlay.emit();
   }
 
+  /** What is shown: of the cap that is being drawn out, else of the one that is selected. */
+  get shown() {
+    const { sole } = this.#state;
+    return this.#tightOfDrawing ?? (sole && this.of(sole));
+  }
+
+  /** Looks at the cap as it is now, and no more often than it can. @type {(shape: Shape | null) => Promise<void>} */
+  async #follow(shape) {
+    this.#drawing = shape;
+    if (!shape) this.#tightOfDrawing = null;
+    if (this.#following) return;
+    this.#following = true;
+    let looked = null;
+    while (this.#drawing && this.#drawing !== looked) {
+      looked = this.#drawing;
+      const tight = await this.#tightenedByPhoto(looked).catch(() => null);
+      this.#tightOfDrawing = this.#drawing && tight;
+      this.#state.signals.overlay.emit();
+    }
+    this.#following = false;
+  }
+
   /** What is offered for a cap as it is now. @type {(shape: Shape) => Cap | null} */
   of({ uid, revision }) {
     const found = this.#found;
@@ -50,14 +82,14 @@ export class RimSuggestion {
 
   /** @type {import("../render/overlay.js").Sketch} */
   sketch = (context, view) => {
-    const { sole } = this.#state;
-    const tight = sole && this.of(sole);
+    const tight = this.shown;
     if (!tight) return false;
     context.beginPath();
     for (const ring of tight.visible) traceRing(context, view, ring);
     context.setLineDash([5, 4]);
     strokeCased(context, { colour: COLOURS.draft, width: 1.5, casing: CASING });
     context.setLineDash([]);
+    if (this.#tightOfDrawing) return true;
     const ring = tight.visible[0];
     const low = ring.reduce((most, value, i) => (i % 2 && value > ring[most] ? i : most), 1);
     const [x, y] = toScreen(view, ring[low - 1], ring[low]);

@@ -59,6 +59,8 @@ export class EditorState {
     selection: signal(),
     /** A cap is being changed, and so its outline. @type {import("./signal.js").Signal<[Shape]>} */
     draft: signal(),
+    /** A cap is being drawn out, as it would be put down now; null once it no longer is. @type {import("./signal.js").Signal<[Shape | null]>} */
+    drawing: signal(),
     /** A cap was drawn by hand. @type {import("./signal.js").Signal<[Shape]>} */
     drawn: signal(),
     /** Caps were moved by a key and wait to be committed. @type {import("./signal.js").Signal<[]>} */

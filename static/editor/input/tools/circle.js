@@ -8,7 +8,7 @@
 import { hundredths, placedWhole } from "../../geometry/caps.js";
 import { SMALLEST_RADIUS, movedHandle, shownHandle } from "../../geometry/handles.js";
 import { withCap } from "../../geometry/shapes.js";
-import { drawPlaced, place } from "./placing.js";
+import { drawPlaced, newCapBy, place } from "./placing.js";
 import { CLICK_PX, apart } from "./tool.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
@@ -85,6 +85,7 @@ export class CircleTool {
     }
     const [cx, cy] = start.image.map(hundredths);
     this.#circle = { kind: "circle", cx, cy, r: Math.max(SMALLEST_RADIUS, hundredths(Math.hypot(dx, dy))) };
+    this.#state.signals.drawing.emit(newCapBy(this.#state, this.#circle));
     this.#state.signals.overlay.emit();
   }
 
@@ -102,6 +103,7 @@ export class CircleTool {
     const circle = this.#circle;
     this.#start = this.#circle = this.#grip = null;
     this.#state.commitDrafts();
+    this.#state.signals.drawing.emit(null);
     if (circle) place(this.#state, circle);
     this.#state.signals.overlay.emit();
   }
@@ -110,6 +112,7 @@ export class CircleTool {
     const busy = this.#circle !== null || this.#grip !== null;
     this.#start = this.#circle = this.#grip = null;
     this.#state.withdraw();
+    this.#state.signals.drawing.emit(null);
     this.#state.signals.overlay.emit();
     return busy;
   }

@@ -37,6 +37,11 @@ export function place(state, whole) {
   state.signals.drawn.emit(after);
 }
 
+/** What would be put down: a new cap, or null where it is a mark. @type {(state: EditorState, whole: Whole) => Shape | null} */
+export function newCapBy(state, whole) {
+  return markedBy(state, whole) ? null : newShape("", newCapOf(state, whole));
+}
+
 /** The selected cap, where this is its mark; while a reviewer looks, any cap that it is around. @type {(state: EditorState, whole: Whole) => Shape | null} */
 function markedBy(state, whole) {
   const { sole, explanation } = state;
