@@ -40,6 +40,9 @@ def test_an_error_nobody_foresaw_ends_in_a_sentence_with_a_file_to_report(projec
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda number: number.name)
 def test_a_stop_that_turned_into_another_error_is_a_stop(project, monkeypatch, number):
+    # A shell has Ctrl+C ignored by what it runs in the background, these tests perhaps.
+    before = signal.signal(number, signal.default_int_handler)
+
     def imported_meanwhile(*_: object) -> None:
         try:
             signal.raise_signal(number)
@@ -48,6 +51,7 @@ def test_a_stop_that_turned_into_another_error_is_a_stop(project, monkeypatch, n
 
     monkeypatch.setattr(info, "_lines", imported_meanwhile)
     done = CliRunner().invoke(app, ["info", str(project)])
+    signal.signal(number, before)
     assert done.exit_code == 130
     assert done.stderr == "fairyring: stopped. Nothing is lost; the same command begins anew.\n"
 
