@@ -12,6 +12,7 @@ from playwright.sync_api import Browser
 from fairyring.app.bench.browser.tab import Tab, chromium
 from fairyring.app.bench.serving import Server
 from fairyring.app.demo.making import make_demo
+from tests.support.once import made_by_the_first
 from tests.support.said import RECORDING
 
 MOST_WAIT_MS = 90_000
@@ -40,16 +41,14 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def made_once(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("made") / "beds"
-    make_demo(folder, count=3, seed=7)
-    return folder
+def demo(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return made_by_the_first(tmp_path_factory, "demo", lambda folder: make_demo(folder, count=3, seed=7))
 
 
 @pytest.fixture
-def project(made_once: Path, tmp_path: Path) -> Path:
+def project(demo: Path, tmp_path: Path) -> Path:
     """Three rendered beds with what the shipped weights see in them, fresh for each test."""
-    return Path(shutil.copytree(made_once, tmp_path / "beds"))
+    return Path(shutil.copytree(demo, tmp_path / "beds"))
 
 
 @pytest.fixture
