@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fairyring.model.network.second_look import SIDE
 from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
+from fairyring.model.network.second_look import SIDE
 from fairyring.model.predict.looking_again import Opinion, agreed, cut_out
 from fairyring.model.predict.overlaps import Window
 
