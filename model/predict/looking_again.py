@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import cv2
@@ -22,6 +22,8 @@ from fairyring.model.predict.pooling import Found
 from fairyring.model.predict.seen import SeenPiece
 
 Kind = TypeVar("Kind", np.uint8, np.int32)
+AGREED = 0.35
+"""How much weight the agreement of two passes has in the expected IoU: they differ where neither is sure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +64,14 @@ def opinions_of(
             windows = windows_in(piece, cut, found, chosen)
             said = look(piece.outputs.point_maps, windows)
             opinions |= zip(chosen, _opinions(network, said, cut.places[chosen]), strict=True)
-    return [opinions[index] for index in range(len(found))]
+    return [agreed(opinions[index], one.agreement) for index, one in enumerate(found)]
+
+
+def agreed(opinion: Opinion, agreement: float | None) -> Opinion:
+    """With a quality that counts how well the passes agree which saw the cap."""
+    if agreement is None:
+        return opinion
+    return replace(opinion, quality=(1 - AGREED) * opinion.quality + AGREED * agreement)
 
 
 def windows_in(piece: SeenPiece, cut: Cut, found: Sequence[Found], chosen: Sequence[int]) -> Windows:

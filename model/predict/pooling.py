@@ -52,6 +52,8 @@ class Found:
     """Index of the piece that it was taken from."""
     kernel: Tensor
     """(E,)."""
+    agreement: float | None = None
+    """IoU of what the passes saw that saw it; None where only one did."""
 
 
 def pooled(pieces: Sequence[Piece], *, width: int, height: int, rim: float = 0.0) -> list[Found]:
@@ -102,7 +104,7 @@ def _each_once(found: Iterable[Found]) -> list[Found]:
         if np.count_nonzero(held & taken) <= MOST_TAKEN * np.count_nonzero(held):
             caps.append([one])
         elif likeness.max() >= SAME:
-            caps[int(likeness.argmax())].append(one)
+            caps[int(likeness.argmax())].append(replace(one, agreement=float(likeness.max())))
     return [_brought_together(views) for views in caps]
 
 
@@ -122,7 +124,7 @@ def _take(taken: NDArray[np.bool_], window: Window, other: Window) -> float:
 
 
 def _brought_together(views: Sequence[Found]) -> Found:
-    """The first, with the mean of all their logits, each as weighty as its score.
+    """The first, with the mean of all their logits, each as weighty as its score, and how well they agree.
 
     Outlines are closer to the true ones so than those of the surer alone: each pass errs in its own way.
     """
@@ -141,4 +143,5 @@ def _brought_together(views: Sequence[Found]) -> Found:
         row, column = window.y - top, window.x - left
         seen[row : row + height, column : column + width] = window.logits.clip(-MOST_LOGIT, MOST_LOGIT)
         mean += np.float32(one.score / weight) * seen
-    return replace(views[0], window=Window(x=left, y=top, logits=mean))
+    agreement = float(np.mean([one.agreement for one in views if one.agreement is not None]))
+    return replace(views[0], window=Window(x=left, y=top, logits=mean), agreement=agreement)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from fairyring.model.geometry.ellipse_parameters import LikelyEllipse
 from fairyring.model.network.second_look import SIDE
-from fairyring.model.predict.looking_again import cut_out
+from fairyring.model.predict.looking_again import Opinion, agreed, cut_out
 from fairyring.model.predict.overlaps import Window
 
 HEIGHT, WIDTH = 90, 120
@@ -56,3 +57,10 @@ def test_beyond_the_photo_there_is_nothing() -> None:
 def test_no_caps_are_cut_into_nothing() -> None:
     cut = cut_out(photo(), [])
     assert (len(cut.layers), cut.places.shape) == (0, (0, 3))
+
+
+def test_the_quality_of_what_two_passes_saw_leans_towards_how_well_they_agree() -> None:
+    whole = LikelyEllipse(parameters=(5.0, 5.0, 1.0, 0.0, 0.0), covariance=())
+    said = Opinion(quality=0.9, whole=whole)
+    assert agreed(said, None) == said
+    assert agreed(said, 0.5) == Opinion(quality=pytest.approx(0.65 * 0.9 + 0.35 * 0.5), whole=whole)

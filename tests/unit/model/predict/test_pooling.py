@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import torch
 
 from fairyring.model.predict.overlaps import Window
@@ -45,6 +46,17 @@ def test_its_rim_lies_where_the_mean_of_both_passes_has_it() -> None:
     plain, close = disc(100, 60, 15), disc(150, 90, 1.5 * 17)
     assert widths(piece(PLAIN, (0.8, plain)), piece(CLOSE, (0.8, close))) == [(0.8, 32)]
     assert widths(piece(PLAIN, (0.8, plain)), piece(CLOSE, (0.1, close))) == [(0.8, 30)]
+
+
+def test_how_well_two_passes_agree_is_the_iou_of_what_they_saw() -> None:
+    both = pooled(
+        [piece(PLAIN, (0.9, disc(100, 60, 15))), piece(CLOSE, (0.8, disc(150, 90, 1.5 * 17)))],
+        width=WIDTH,
+        height=HEIGHT,
+    )
+    assert [one.agreement for one in both] == [pytest.approx(15**2 / 17**2, abs=0.02)]
+    alone = pooled([piece(PLAIN, (0.9, disc(100, 60, 15))), piece(CLOSE)], width=WIDTH, height=HEIGHT)
+    assert [one.agreement for one in alone] == [None]
 
 
 def test_where_two_passes_differ_too_much_the_surer_is_believed() -> None:
