@@ -45,6 +45,12 @@ def test_a_reader_sees_one_state_while_others_write(project):
         assert connection.execute(select(schema.category)).all() == before == []
 
 
+def test_the_many_readers_keep_little_of_the_file_each(project):
+    with project.read() as one, project.read() as another:
+        kept_kib = [-reader.execute(text("PRAGMA cache_size")).scalar() for reader in (one, another)]
+    assert sum(kept_kib) <= 1024
+
+
 def test_writes_of_many_threads_come_one_after_the_other(project):
     def count_up(connection):
         count = len(connection.execute(select(schema.category.c.id)).all())
