@@ -25,7 +25,7 @@ BUSY_SECONDS = 30
 READERS = 40
 """Readers at once whose connections are kept: to open one takes longer than what most of them read."""
 READERS_CACHE_KIB = 512
-"""What each of them keeps of the file; with SQLite's own 2 MB a server grows by 2 MB for each that it ever needed."""
+"""What each of them keeps of the file: by SQLite's own 2 MB a server would grow with each it ever needed."""
 
 NETWORK_FILE_SYSTEMS = {
     "nfs",
