@@ -14,7 +14,7 @@ from fairyring.storage.errors import StoreError
 from fairyring.storage.own_work import require_cap_of_others, require_work_of_others
 from fairyring.storage.records import Outcome, Refused, Says, Status, StatusEdit, StatusStored, Verdict
 from fairyring.storage.statuses import record_status
-from fairyring.storage.verdicts import enter_verdict, was_given_before
+from fairyring.storage.verdicts import enter_verdict, last_said, was_given_before
 
 MOST_WORDS = 2000
 """Characters of a reason or a comment."""
@@ -38,7 +38,7 @@ def commit_verdict(connection: Connection, said: Verdict, sets: ChangeSets, *, u
         check_change_set(said)
         require_image(connection, said.image)
         if not was_given_before(connection, said):
-            _check(said)
+            _check(connection, said, user=user)
             if said.annotation is None:
                 _judge_image(connection, said, sets, user=user)
             else:
@@ -48,13 +48,22 @@ def commit_verdict(connection: Connection, said: Verdict, sets: ChangeSets, *, u
     return StatusStored(edit=said.id, image=said.image, status=require_image(connection, said.image).status)
 
 
-def _check(said: Verdict) -> None:
+def _check(connection: Connection, said: Verdict, *, user: str) -> None:
     if said.says in NEED_WORDS and not said.words.strip():
         raise StoreError(NEED_WORDS[said.says])
     if said.says == "withdrawn":
-        raise StoreError("A verdict is withdrawn by setting another status, or by undoing it.")
+        _require_own_to_withdraw(connection, said, user=user)
     if len(said.words) > MOST_WORDS:
         raise StoreError(f"A comment has at most {MOST_WORDS} characters; this one has {len(said.words)}.")
+
+
+def _require_own_to_withdraw(connection: Connection, said: Verdict, *, user: str) -> None:
+    """An approval of an image, and what else has changed its status, is withdrawn by undoing that."""
+    last = last_said(connection, said.image, said.annotation)
+    if last is None or last.user != user or last.says == "withdrawn":
+        raise StoreError("What you said is no longer what was said last of it, so it cannot be taken back.")
+    if said.annotation is None and last.says == "approved":
+        raise StoreError("An approval is withdrawn by setting another status, or by undoing it.")
 
 
 def _judge_image(connection: Connection, said: Verdict, sets: ChangeSets, *, user: str) -> None:

@@ -69,13 +69,18 @@ def verdicts_by_change_set(connection: Connection, numbers: Sequence[int]) -> di
 
 def latest_verdict(connection: Connection, image_id: int) -> Says | None:
     """What was last said of an image itself, comments aside; None where nothing was."""
-    last = (
-        select(verdict.c.says)
-        .where(verdict.c.image == image_id, verdict.c.annotation.is_(None), verdict.c.says != "comment")
-        .order_by(verdict.c.sequence.desc())
-        .limit(1)
-    )
-    return connection.execute(last).scalar_one_or_none()
+    last = last_said(connection, image_id, None)
+    return None if last is None else last.says
+
+
+def last_said(connection: Connection, image_id: int, annotation: str | None) -> GivenVerdict | None:
+    """The last verdict on an image itself or on a cap of it, comments aside; None where there is none."""
+    about = verdict.c.annotation.is_(None) if annotation is None else verdict.c.annotation == annotation
+    which = verdict.c.image == image_id, about, verdict.c.says != "comment"
+    row = connection.execute(
+        select(verdict).where(*which).order_by(verdict.c.sequence.desc()).limit(1)
+    ).first()
+    return None if row is None else _given(row)
 
 
 def given_back(connection: Connection, image_ids: Iterable[int]) -> dict[int, Says]:

@@ -118,6 +118,8 @@ def words_of(done: ChangeSet) -> str:
 
 def _said(verdict: GivenVerdict) -> str:
     about = "" if verdict.annotation is None else " of a cap"
+    if verdict.says == "withdrawn":
+        return f"withdrew the verdict{about and ' on a cap'}"
     return f"said{about}: {verdict.words}" if verdict.words else f"{WORDS[verdict.says]} a cap"
 
 

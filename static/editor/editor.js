@@ -102,6 +102,7 @@ export class Editor {
         open: (image) => this.#going.open(image, null),
         say: (text, level) => this.#say(text, level),
         tell: (text) => this.#say(text, "info", { about: "undo" }),
+        said: (uid, way) => this.#reviewing.saidAgain(uid, way),
       }),
     });
     this.#reviewing = new Reviewing(state, send);

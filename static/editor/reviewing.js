@@ -60,6 +60,15 @@ export class Reviewing {
     if (state.image?.id === image.id && state.selection.uids.size === 0) state.select([uid], { reveal: true });
   }
 
+  /** What the reviewer said of a cap was taken back, or said again. @type {(uid: string, way: "undo" | "redo") => void} */
+  saidAgain(uid, way) {
+    const { review } = this;
+    if (way === "undo") review.decided.delete(uid);
+    else review.decided.set(uid, this.#state.items.get(uid));
+    review.changed.emit();
+    this.#state.select([uid]);
+  }
+
   /** Draws annotations and predictions in turn, or both again. */
   blink() {
     if (this.#timer) return this.#stay();

@@ -59,10 +59,10 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     tab = open_tab(server, name="Rev")
     tab.press("Shift+R")
     tab.page.get_by_role("textbox", name="What is to be done about it?").wait_for()
-    tab.page.keyboard.type("The fifth cap is missing")
+    tab.page.keyboard.type("2 caps are missing")
     tab.press("Enter")
     on_image(tab, 2)
-    tab.page.get_by_text("Sent bed_1.png back: “The fifth cap is missing”. 2 to review.").wait_for()
+    tab.page.get_by_text("Sent bed_1.png back: “2 caps are missing”. 2 to review.").wait_for()
     tab.press("Shift+X")
     asked = tab.page.get_by_role("dialog", name="Reject bed_2.png: why?")
     asked.get_by_role("textbox", name="Why is it rejected?").wait_for()
@@ -74,7 +74,7 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     asked.get_by_role("button", name="Reject the image Enter").click()
     on_image(tab, 3)
     tab.saved()
-    assert [(v.says, v.words) for v in said_of(project, 1)] == [("sent_back", "The fifth cap is missing")]
+    assert [(v.says, v.words) for v in said_of(project, 1)] == [("sent_back", "2 caps are missing")]
     assert [(v.says, v.words) for v in said_of(project, 2)] == [("rejected", "Out of focus")]
     assert (status_of(project, 1), status_of(project, 2)) == ("new", "new")
     tab.press("p")
@@ -91,6 +91,50 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
     tab.page.get_by_text("Taken back: bed_2.png is annotated again.").wait_for()
     tab.saved()
     assert status_of(project, 2) == "annotated"
+
+
+def test_what_was_said_of_a_cap_is_taken_back_by_undo_and_what_is_decided_stays_so_on_coming_back(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
+    tab.press("u")
+    tab.page.get_by_text("2 of 3 differences").wait_for()
+    tab.press("Control+z")
+    selected(tab, uid_of(1, 4))
+    tab.page.get_by_text("Taken back: what you said of a cap.").wait_for()
+    tab.page.get_by_text("1 of 3 differences").wait_for()
+    tab.press("u", "s", "s")
+    tab.page.get_by_text("All 3 differences decided").wait_for()
+    tab.press("n")
+    on_image(tab, 2)
+    tab.press("p")
+    on_image(tab, 1)
+    tab.page.get_by_text("All 3 differences decided").wait_for()
+    tab.saved()
+    assert [(v.says, v.annotation) for v in said_of(project, 1)] == [
+        (says, uid_of(1, 4)) for says in ("approved", "withdrawn", "approved")
+    ]
+
+
+def test_who_takes_back_a_rejection_in_the_history_can_approve(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.press("Shift+X", "1", "Enter")
+    on_image(tab, 2)
+    tab.press("p")
+    on_image(tab, 1)
+    tab.page.get_by_label("Selected cap").get_by_text("Rev rejected: Out of focus").wait_for()
+    tab.page.get_by_role("tab", name="History").click()
+    tab.page.get_by_role("button", name="Take back").first.click()
+    tab.page.get_by_text("Rev rejected: Out of focus").wait_for(state="detached")
+    tab.press("Shift+Enter")
+    say_yes(tab)
+    on_image(tab, 2)
+    tab.saved()
+    assert [v.says for v in said_of(project, 1)] == ["rejected", "withdrawn", "approved"]
 
 
 def test_a_comment_on_a_cap_leads_back_to_the_cap(project: Path, server: Server, open_tab: OpenTab) -> None:

@@ -36,8 +36,9 @@ const STUCK = {
  * @param {(image: number, select: null) => void} how.open
  * @param {(text: string, level?: "info" | "warning") => void} how.say
  * @param {(text: string) => void} how.tell  in place of what was told before
+ * @param {(uid: string, way: Way) => void} how.said  what was said of a cap is taken back, or said again
  */
-export function travelIn(state, { open, say, tell }) {
+export function travelIn(state, { open, say, tell, said }) {
   /** The one cap that was selected last: what was done to its neighbours on the way was done to it. @type {string | null} */
   let inHand = null;
   state.selection.changed.listen((_before, now) => {
@@ -45,9 +46,9 @@ export function travelIn(state, { open, say, tell }) {
   });
   return {
     /** @type {(travelled: Travelled) => void} */
-    travelled({ image, way, changes, stayed }) {
+    travelled({ image, way, changes, stayed, word }) {
       // Of a status the server says what it is again.
-      const words = wordsOfChanges(way === "undo" ? changes.map(turned) : changes);
+      const words = word ? `what you said of ${word.annotation ? "a cap" : "the image"}` : wordsOfChanges(way === "undo" ? changes.map(turned) : changes);
       if (words) tell(`${DONE[way]}: ${words}.`);
       if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
       if (image !== state.image?.id) return open(image, null);
@@ -55,6 +56,7 @@ export function travelIn(state, { open, say, tell }) {
       const seen = own.length ? own : changes;
       const uids = seen.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
       const known = uids.filter((uid) => state.items.get(uid));
+      if (word?.annotation) said(word.annotation, way);
       if (changes.length) state.select(known.length <= MOST_SELECTED ? known : []);
       // The view stays where it is: whoever works there may not want to be taken away.
       if (state.selected.length && !state.selectionOnScreen) say(OUT_OF_SIGHT);

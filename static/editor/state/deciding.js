@@ -26,6 +26,7 @@ export function decideOn(state, review, cap, carryOut) {
     const now = annotation ? state.store.get(annotation) : heirs.get(prediction?.id ?? 0);
     review.decided.set(uidOf(each), now ?? null);
   }
+  review.changed.emit();
 }
 
 /**

@@ -12,6 +12,7 @@ import { untouched } from "./untouched.js";
 /** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("./changes.js").Change} Change */
 /** @typedef {{before: Status, after: Status}} StatusChange */
+/** What a reviewer said of a cap, or of the image where `annotation` is null. @typedef {Pick<import("../protocol.js").Verdict, "annotation" | "says" | "words">} Word */
 
 /**
  * What was done in one go.
@@ -20,12 +21,13 @@ import { untouched } from "./untouched.js";
  * @property {string[]} ids  the change sets that did it, took it back, did it again …; the newest one last
  * @property {Change[]} changes
  * @property {StatusChange | null} status
+ * @property {Word | null} [word]
  */
 
 /**
  * What is to be done now, and the change set that this takes back.
  *
- * @typedef {{takesBack: string, changes: Change[], status: StatusChange | null}} Move
+ * @typedef {{takesBack: string, changes: Change[], status: StatusChange | null, word?: Word | null}} Move
  */
 
 export class History {
@@ -79,7 +81,7 @@ export class History {
     const set = this.#undone.pop();
     if (!set) return null;
     this.#done.push({ ...set, ids: [...set.ids, id] });
-    return { takesBack: newest(set), changes: onTopOf(set.changes, current), status: set.status };
+    return { takesBack: newest(set), changes: onTopOf(set.changes, current), status: set.status, word: (!set.status && set.word) || null };
   }
 
   /**
@@ -93,7 +95,7 @@ export class History {
 
   /** Somebody else said something else of the image. */
   forgetStatus() {
-    this.#mend((set) => ({ ...set, status: null }));
+    this.#mend((set) => ({ ...set, status: null, word: set.word?.annotation ? set.word : null }));
   }
 
   /**
@@ -117,20 +119,21 @@ export class History {
 
   /** A change of status was refused. @type {(changeSet: string) => void} */
   refusedStatus(changeSet) {
-    this.#mend((set) => (set.ids.includes(changeSet) ? { ...set, status: null } : set));
+    this.#mend((set) => (set.ids.includes(changeSet) ? { ...set, status: null, word: null } : set));
   }
 
   /** @type {(mend: (set: ChangeSet) => ChangeSet) => void} */
   #mend(mend) {
     const mended = (/** @type {ChangeSet[]} */ sets) =>
-      sets.map(mend).filter(({ changes, status }) => changes.length > 0 || status);
+      sets.map(mend).filter(({ changes, status, word }) => changes.length > 0 || status || word);
     this.#done = mended(this.#done);
     this.#undone = mended(this.#undone);
   }
 
-  /** Whether what was done last was a change of status. */
+  /** Whether what was done last was to say something of the image. */
   get endsInStatus() {
-    return Boolean(this.#done.at(-1)?.status);
+    const last = this.#done.at(-1);
+    return Boolean(last && (last.status || last.word?.annotation === null));
   }
 
   get depth() {
@@ -140,11 +143,13 @@ export class History {
 
 /** What takes a set back. @type {(set: ChangeSet, current: (uid: string) => Shape | null) => Move} */
 export function backwards(set, current) {
-  const { changes, status } = set;
+  const { changes, status, word } = set;
   return {
     takesBack: newest(set),
     changes: onTopOf(inverse(changes), current),
     status: status && { before: status.after, after: status.before },
+    // With the status of an image the server withdraws what was said of it.
+    word: word && !status ? { ...word, says: "withdrawn", words: "" } : null,
   };
 }
 

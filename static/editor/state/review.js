@@ -37,8 +37,8 @@ export class Review {
   turn = null;
   /** The worst first. @type {ComparedCap[]} */
   caps = [];
-  /** Those that the reviewer has decided, each with the cap as it is since; null where there is none. @type {Map<string, Shape | null>} */
-  decided = new Map();
+  /** What the reviewer has decided, by image. @type {Map<number, Map<string, Shape | null>>} */
+  #decided = new Map();
   /** The image that `caps` are of. */
   image = 0;
   /** What a second annotator's version is called, where its caps stand for predictions. @type {string | null} */
@@ -64,9 +64,15 @@ export class Review {
     this.changed.emit();
   }
 
+  /** The caps of the image that the reviewer has decided, each as it is since; null where there is none. @returns {Map<string, Shape | null>} */
+  get decided() {
+    let decided = this.#decided.get(this.image);
+    if (!decided) this.#decided.set(this.image, (decided = new Map()));
+    return decided;
+  }
+
   /** What the server has found. @type {(image: number, caps: ComparedCap[], second?: string | null) => void} */
   take(image, caps, second = null) {
-    if (image !== this.image) this.decided.clear();
     this.image = image;
     this.caps = caps;
     this.second = second;

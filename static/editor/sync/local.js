@@ -6,6 +6,7 @@
  */
 
 import { shapeOfAnnotation } from "../geometry/shapes.js";
+import { newId } from "../ids.js";
 import { History } from "../state/history.js";
 import { Confirmed } from "./confirmed.js";
 import { editOfStatus, editsOfChange, statusAfter } from "./edits.js";
@@ -65,7 +66,7 @@ export class Local {
    * @param {string} changeSet
    * @param {Move} move
    */
-  carryOut(image, changeSet, { takesBack, changes, status }) {
+  carryOut(image, changeSet, { takesBack, changes, status, word }) {
     const { outbox, store } = this;
     const whence = { image, changeSet, takesBack };
     const edits = changes.map((change) => (outbox.holds(change.after.uid) ? [] : editsOfChange(change, whence)));
@@ -74,7 +75,8 @@ export class Local {
       return { ...change, after: { ...change.after, revision } };
     });
     store.apply(shown);
-    const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : [])];
+    const said = word ? [{ ...word, id: newId(), image, change_set: changeSet }] : [];
+    const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : []), ...said];
     if (all.length) outbox.add(all);
     for (const { after } of changes) this.#foldIntoHeld(after);
   }

@@ -25,7 +25,6 @@ import { Travelling } from "./travelling.js";
 /** @typedef {import("./outbox.js").Edit} Edit */
 /** @typedef {import("./outbox.js").Outbox} Outbox */
 /** @typedef {"undo" | "redo"} Way */
-
 /** @typedef {import("./travelling.js").Travelled} Travelled */
 
 /**
@@ -151,7 +150,7 @@ export class Sync {
   }
 
   /**
-   * Says something of the image on screen or of a cap of it; a status that follows can be undone.
+   * Says something of the image on screen or of a cap of it, which can be undone but for a comment.
    *
    * @param {string | null} annotation
    * @param {import("../protocol.js").Says} says
@@ -159,13 +158,14 @@ export class Sync {
    * @returns {Promise<boolean>} whether it was not refused
    */
   async judge(annotation, says, words) {
-    const [changeSet, before] = [newId(), this.status];
+    const [changeSet, before, word] = [newId(), this.status, { annotation, says, words }];
     /** @type {import("../protocol.js").Verdict} */
-    const verdict = { id: newId(), image: this.image, annotation, says, words, change_set: changeSet };
+    const verdict = { ...word, id: newId(), image: this.image, change_set: changeSet };
     const after = statusAfter(before, [verdict]);
-    if (before !== after) {
-      this.#travelling.done(this.image);
-      this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status: { before, after } });
+    if (says !== "comment") {
+      this.#travelling.done(annotation === null ? this.image : null);
+      const status = before === after ? null : { before, after };
+      this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status, word });
     }
     const answer = this.#answers.to(changeSet);
     this.#local.outbox.add([verdict]);

@@ -34,7 +34,7 @@ export class Refusals {
   /** @type {(edit: Edit, reason: string) => void} */
   tell(edit, reason) {
     const { say, show, image, redraw } = this.#parts;
-    if (!isOfCap(edit)) return say(reason, "error");
+    if (!isOfCap(edit)) return say(reason, "error", { about: "decision" });
     this.#told.add(edit);
     redraw();
     const where = edit.image === image() ? "a cap of this image" : "a cap of another image";

@@ -1,6 +1,6 @@
 /**
  * Asks for a reason or a comment, and whether it is about the selected cap or the whole image. A number in an empty
- * field fills in the reason of that number. Enter says it, Ctrl+Enter says it of the other one, Shift+Enter begins a
+ * field fills in the reason of that number, unless one writes on: then it was the first letter. Enter says it, Ctrl+Enter says it of the other one, Shift+Enter begins a
  * new line, Escape says nothing.
  *
  * @module
@@ -49,13 +49,21 @@ export function askWords({ title, question, verb, reasons, cap, first }) {
   const list = reasons.length ? [listOf(reasons, fill)] : [];
   dialog.append(element("h2", { text: title }), ...list, field, missing, element("div", {}, ...buttons));
   field.addEventListener("input", () => (missing.hidden = true));
+  /** The number that was pressed last, until anything else is done. */
+  let number = "";
+  field.addEventListener("beforeinput", (event) => {
+    if (number && event.inputType === "insertText") field.setRangeText(number, 0, field.value.length, "end");
+    number = "";
+  });
   field.addEventListener("keydown", (event) => {
     const reason = field.value === "" && !event.ctrlKey && !event.altKey && !event.metaKey ? reasons[Number(event.key) - 1] : undefined;
     const enters = event.key === "Enter" && !event.shiftKey;
     if (!enters && reason === undefined) return;
     event.preventDefault();
-    if (reason !== undefined) fill(reason);
-    else say((event.ctrlKey && other) || main);
+    if (reason !== undefined) {
+      fill(reason);
+      number = event.key;
+    } else say((event.ctrlKey && other) || main);
   });
   return new Promise((resolve) => {
     dialog.addEventListener("close", () => {

@@ -91,3 +91,33 @@ test("nobody is held up by a line that is broken: what was said is sent later", 
   assert.equal(await sentBack, true);
   assert.equal(sync.waiting, 1);
 });
+
+test("what was said of a cap is withdrawn by undo, said again by redo, and a comment is passed over", async () => {
+  const { sync, sent } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);
+  const answer = () => {
+    const [verdict] = /** @type {Edits} */ (sent.at(-1)).verdicts;
+    sync.receive([{ outcome: "status", edit: verdict.id, image: 3, status: "annotated" }]);
+    return [verdict.annotation, verdict.says, verdict.words];
+  };
+  sync.judge("cap", "approved", "");
+  assert.deepEqual(answer(), ["cap", "approved", ""]);
+  sync.judge("cap", "comment", "Is it one?");
+  assert.deepEqual(answer(), ["cap", "comment", "Is it one?"]);
+  sync.undo();
+  assert.deepEqual(answer(), ["cap", "withdrawn", ""]);
+  sync.redo();
+  assert.deepEqual(answer(), ["cap", "approved", ""]);
+});
+
+test("a rejection that left the status as it was is undone, too", () => {
+  const { sync, sent } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "new" }, [], []);
+  sync.judge(null, "rejected", "Too dark");
+  assert.ok(sync.hasFinished(3));
+  const [{ id }] = /** @type {Edits} */ (sent.at(-1)).verdicts;
+  sync.receive([{ outcome: "status", edit: id, image: 3, status: "new" }]);
+  sync.undo();
+  const [{ says, annotation }] = /** @type {Edits} */ (sent.at(-1)).verdicts;
+  assert.deepEqual([says, annotation], ["withdrawn", null]);
+});

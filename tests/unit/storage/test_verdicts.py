@@ -247,6 +247,36 @@ def test_undoing_a_sending_back_withdraws_it(annotated):
         assert latest_verdict(connection, 1) == "withdrawn"
 
 
+def test_what_somebody_said_last_of_a_cap_is_theirs_to_withdraw(annotated):
+    judge(annotated, "v1", annotation="cap")
+    assert "no longer what was said last" in reason(
+        judge(annotated, "v2", says="withdrawn", annotation="cap", user="bob")
+    )
+    assert status(judge(annotated, "v3", says="withdrawn", annotation="cap")) == "annotated"
+    assert "no longer" in reason(judge(annotated, "v4", says="withdrawn", annotation="cap"))
+    assert [says for _, says, *_ in given(annotated)] == ["approved", "withdrawn"]
+
+
+def test_a_rejection_of_what_is_to_do_anyway_can_be_withdrawn(annotated):
+    judge(annotated, "v1", says="sent_back", words="The rim is off")
+    judge(annotated, "v2", says="rejected", words="Too dark")
+    assert status(judge(annotated, "v3", says="withdrawn")) == "new"
+    with annotated.read() as connection:
+        assert given_back(connection, [1]) == {}
+
+
+def test_an_approval_is_not_withdrawn_without_its_status(annotated):
+    judge(annotated, "v1")
+    assert "by setting another status" in reason(judge(annotated, "v2", says="withdrawn"))
+    assert status_of(annotated) == "approved"
+
+
+def test_who_takes_a_rejection_back_has_not_labelled_the_image(annotated):
+    judge(annotated, says="rejected", words="Too dark", change_set="rejected")
+    set_to(annotated, "s2", "new", "annotated", user="rev", change_set="back", takes_back="rejected")
+    assert status(judge(annotated, "v2")) == "approved"
+
+
 def test_the_history_of_the_image_tells_of_verdicts(annotated):
     judge(annotated, says="comment", words="Look here", annotation="cap")
     with annotated.read() as connection:
