@@ -42,10 +42,14 @@ def build(workspace: Workspace, session: Session) -> Redraw:
 
 def status_badge(image: Image, said: Says | None) -> Markup:
     """What people say of an image, with a sign; one that was rejected or sent back is called so."""
-    is_back = image.status == "new" and said in SAID_WORDS
-    word = SAID_WORDS[said] if is_back and said else STATUS_WORDS[image.status]
-    look = said if is_back and said else image.status
+    word = status_word(image.status, said)
+    look = said if word in SAID_WORDS.values() else image.status
     return element("span", f"{SIGNS[word]} {word}", class_=f"fr-badge fr-{look}", title="Status of the image")
+
+
+def status_word(status: Status, said: Says | None) -> str:
+    """How far an image is; one to do that was last rejected or sent back is called so."""
+    return SAID_WORDS.get(said, STATUS_WORDS[status]) if said and status == "new" else STATUS_WORDS[status]
 
 
 def header(session: Session, *, project: str, jobs: Sequence[Job], said: Says | None = None) -> Markup:

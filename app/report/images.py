@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from fairyring.app.panels.markup import Markup, element
-from fairyring.app.panels.status import STATUS_WORDS
+from fairyring.app.panels.status import status_word
 from fairyring.app.report.bars import Bar, cdr_bars
 from fairyring.app.report.pictures import side_by_side
 from fairyring.app.report.tables import number, table
 from fairyring.app.review.figures import Review
 from fairyring.app.review.unmeasured import why_unmeasured
 from fairyring.storage.project import Project
+from fairyring.storage.verdicts import given_back
 
 MOST_CAP_BY_CAP = 6
 """Of so many images at most each cap is plotted, and the photo shown."""
@@ -25,18 +26,25 @@ def image_sections(project: Project, review: Review, figures: dict[str, Any]) ->
     return [
         element("h2", "Image by image" if len(images) > 1 else "The image"),
         *([_bars_of_images(review, images, figures)] if len(images) > 1 else []),
-        _table(images),
+        _table(images, _status_words(project, review)),
         *(_cap_by_cap(review, images) if few else []),
         *(_photos(project, review) if few else []),
     ]
 
 
-def _table(images: Sequence[dict[str, Any]]) -> Markup:
+def _status_words(project: Project, review: Review) -> dict[str, str]:
+    """How far each image is, by file name."""
+    with project.read() as connection:
+        said = given_back(connection, [image.id for image in review.images])
+    return {image.file_name: status_word(image.status, said.get(image.id)) for image in review.images}
+
+
+def _table(images: Sequence[dict[str, Any]], status_words: Mapping[str, str]) -> Markup:
     head = ("Image", "Status", "CDR %", "Floor %", "px", "Matched", "Missed", "Extra")
     rows = [
         (
             row["file_name"],
-            STATUS_WORDS[row["status"]],
+            status_words[row["file_name"]],
             number(row["cdr"]["mean"]),
             number(row["floor"]["cdr_mean"]),
             number(row["px"]["mean"], 2),

@@ -141,6 +141,7 @@ def test_the_report_tells_reasons_and_comments_with_who_and_when(project: Projec
         ("the image", "sent back", "Look &lt;again&gt;."),
         ("cap 2", "commented", "Is it one?"),
     ]
+    assert re.search(r"<td>bed_1.jpg</td><td[^>]*>sent back</td>", html.split('id="images"')[1])
     assert len(re.findall(r"<td>\d{4}-\d\d-\d\d \d\d:\d\d UTC</td>", html)) == 2
     entries = figures_of(review)["verdicts"]
     assert [(each["by"], each["says"], each.get("annotation")) for each in entries] == [
