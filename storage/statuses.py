@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from hashlib import sha256
 from uuid import uuid4
 
@@ -83,6 +84,17 @@ def follow_edits(connection: Connection, image_id: int, number: int, *, takes_ba
         _enter(connection, image_id, before=status, after="annotated", number=number, user=user)
     elif takes_back and _is_as_approved(connection, image_id):
         _enter(connection, image_id, before=status, after="approved", number=number, user=user)
+
+
+def statuses_by_change_set(
+    connection: Connection, numbers: Sequence[int], *, said: bool = False
+) -> dict[int, tuple[Status, Status]]:
+    """The status before and after each of these change sets that changed it; only what people ``said``."""
+    statement = select(status_change).where(status_change.c.change_set.in_(numbers))
+    if said:
+        statement = statement.where(status_change.c.id.is_not(None))
+    found = connection.execute(statement.order_by(status_change.c.sequence))
+    return {row.change_set: (row.before, row.after) for row in found}
 
 
 def _is_as_approved(connection: Connection, image_id: int) -> bool:

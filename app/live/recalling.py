@@ -7,7 +7,7 @@ from sqlalchemy import Connection
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.protocol import Recall, Recalled
-from fairyring.storage.image_history import Reversal, next_reversal, reversal_of
+from fairyring.storage.reversals import Reversal, next_reversal, reversal_of
 
 
 async def recall(workspace: Workspace, session: Session, request: Recall) -> None:

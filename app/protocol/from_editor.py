@@ -9,8 +9,8 @@ from msgspec import Struct, field
 from fairyring.model.geometry.shapes import Circle, Polygon
 from fairyring.storage.cap_groups import Group
 from fairyring.storage.compared_caps import Kind
-from fairyring.storage.image_history import Way
 from fairyring.storage.records import Cap, Edit, StatusEdit, Verdict
+from fairyring.storage.reversals import Way
 
 
 class FromEditor(Struct, frozen=True, kw_only=True, tag_field="type", forbid_unknown_fields=True):

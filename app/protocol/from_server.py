@@ -7,7 +7,6 @@ from typing import Literal
 from msgspec import Struct, field
 
 from fairyring.model.geometry.shapes import Fit
-from fairyring.storage.image_history import Reversal, Way
 from fairyring.storage.records import (
     Annotation,
     ImageContents,
@@ -16,6 +15,7 @@ from fairyring.storage.records import (
     Prediction,
     Status,
 )
+from fairyring.storage.reversals import Reversal, Way
 
 
 class FromServer(Struct, frozen=True, kw_only=True, tag_field="type"):

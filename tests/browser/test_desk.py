@@ -118,6 +118,22 @@ def test_what_was_said_of_a_cap_is_taken_back_by_undo_and_what_is_decided_stays_
     ]
 
 
+def test_what_was_said_of_a_cap_is_taken_back_also_after_a_reload(
+    project: Path, server: Server, open_tab: OpenTab
+) -> None:
+    tab = open_tab(server, name="Rev")
+    tab.press(".")
+    selected(tab, uid_of(1, 4))
+    tab.press("u")
+    tab.saved()
+    tab.reload()
+    tab.press("Control+z")
+    tab.page.get_by_text("Taken back: what you said of a cap.").wait_for()
+    selected(tab, uid_of(1, 4))
+    tab.saved()
+    assert [v.says for v in said_of(project, 1)] == ["approved", "withdrawn"]
+
+
 def test_who_takes_back_a_rejection_in_the_history_can_approve(
     project: Path, server: Server, open_tab: OpenTab
 ) -> None:

@@ -9,11 +9,11 @@ from typing import Any
 
 from fairyring.app.protocol import Edits, Recall, Recalled
 from fairyring.storage.contents import load_annotation, load_annotations
-from fairyring.storage.image_history import next_reversal, reversal_of
 from fairyring.storage.images import get_image
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import Project
 from fairyring.storage.records import Annotation, Cap, Edit, Image, Status
+from fairyring.storage.reversals import next_reversal, reversal_of
 from fairyring.storage.statuses import set_status
 from tests.support.browser_side import BrowserSide, Look
 from tests.support.dying_store import DyingStore

@@ -184,12 +184,20 @@
  */
 
 /**
+ * @typedef {Object} Word
+ * @property {string | null} annotation
+ * @property {Says} says
+ * @property {string} words
+ */
+
+/**
  * @typedef {Object} Reversal
  * @property {string} id
  * @property {string} made_at
  * @property {Return[]} returns
  * @property {number} changed_since
  * @property {[Status, Status] | null} status
+ * @property {Word | null} word
  */
 
 /**

@@ -12,7 +12,7 @@ import { untouched } from "./untouched.js";
 /** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("./changes.js").Change} Change */
 /** @typedef {{before: Status, after: Status}} StatusChange */
-/** What a reviewer said of a cap, or of the image where `annotation` is null. @typedef {Pick<import("../protocol.js").Verdict, "annotation" | "says" | "words">} Word */
+/** What a reviewer said of a cap, or of the image where `annotation` is null. @typedef {import("../protocol.js").Word} Word */
 
 /**
  * What was done in one go.

@@ -79,7 +79,7 @@ export class Recalling {
  * @param {Reversal} reversal
  * @returns {ChangeSet}
  */
-export function changeSetOf({ id, returns, status }) {
+export function changeSetOf({ id, returns, status, word }) {
   return {
     ids: [id],
     changes: returns.map(({ annotation, cap, deleted }) => {
@@ -87,5 +87,6 @@ export function changeSetOf({ id, returns, status }) {
       return { before: cap && { ...after, cap, deleted }, after };
     }),
     status: status && { before: status[1], after: status[0] },
+    word,
   };
 }

@@ -15,7 +15,7 @@ import { Recalling, changeSetOf } from "./recalling.js";
 /** @typedef {import("./local.js").Local} Local */
 /** @typedef {"undo" | "redo"} Way */
 
-/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], stayed: number, word: import("../state/history.js").Word | null}} Travelled */
+/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], stayed: number, word: import("../protocol.js").Word | null}} Travelled */
 
 /**
  * @typedef {Object} Wires
@@ -141,11 +141,11 @@ export class Travelling {
     const history = local.historyOf(this.#local.image);
     if (anew) history.push({ ids: [id], changes: move.changes, status: move.status });
     else if (way === "undo") history.wasUndone({ ...set, ids: [...set.ids, id] });
-    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status });
-    if (move.changes.length || move.status)
+    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status, word: null });
+    if (move.changes.length || move.status || move.word)
       // What is taken back of caps is done anew, a status is as if nobody had said it.
       this.#carryOut(this.#local.image, id, anew && !move.status ? { ...move, takesBack: "" } : move);
     const { changes } = move;
-    this.#wires.travelled({ image: this.#local.image, way, changes, stayed: reversal.changed_since, word: null });
+    this.#wires.travelled({ image: this.#local.image, way, changes, stayed: reversal.changed_since, word: move.word ?? null });
   }
 }

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from fairyring.storage.importing.paths import import_paths
+from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import create_project, open_project
 
 SQUARE = [[10.0, 10.0, 30.0, 10.0, 30.0, 30.0, 10.0, 30.0]]
@@ -90,3 +91,17 @@ def beds(project_of_three, tmp_path):
     """A project of three photos, bed_1.png, bed_2.png and bed_10.png, with ids 1, 2 and 3."""
     with open_project(shutil.copytree(project_of_three, tmp_path / "beds")) as opened:
         yield opened
+
+
+@pytest.fixture
+def predicted(beds):
+    """The project ``beds`` with one prediction on its first image, of a run called r."""
+    beds.write(
+        lambda c: add_predictions(
+            c,
+            run_id=add_run(c, name="r", kind="network").id,
+            image_id=1,
+            predictions=[NewPrediction(visible=SQUARE, score=0.5)],
+        )
+    )
+    return beds

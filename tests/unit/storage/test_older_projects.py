@@ -11,10 +11,11 @@ from sqlalchemy import Connection, text
 from fairyring.storage.contents import load_annotations, load_predictions
 from fairyring.storage.db.engine import connect_engine
 from fairyring.storage.db.upgrade import _config
-from fairyring.storage.image_history import list_change_sets, next_reversal
+from fairyring.storage.image_history import list_change_sets
 from fairyring.storage.journal import commit, history
 from fairyring.storage.project import Project, create_project, open_project
 from fairyring.storage.records import Cap, StatusEdit
+from fairyring.storage.reversals import next_reversal
 from tests.support.edits import one
 from tests.unit.storage.conftest import SQUARE, TRIANGLE
 
