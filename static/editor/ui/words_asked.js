@@ -49,10 +49,11 @@ export function askWords({ title, question, verb, reasons, cap, first }) {
   const list = reasons.length ? [listOf(reasons, fill)] : [];
   dialog.append(element("h2", { text: title }), ...list, field, missing, element("div", {}, ...buttons));
   field.addEventListener("input", () => (missing.hidden = true));
-  /** The number that was pressed last, until anything else is done. */
+  /** The number that was pressed last, until anything else is written. */
   let number = "";
   field.addEventListener("beforeinput", (event) => {
-    if (number && event.inputType === "insertText") field.setRangeText(number, 0, field.value.length, "end");
+    const writesOn = event.inputType === "insertText" && field.selectionEnd - field.selectionStart === field.value.length;
+    if (number && writesOn) field.setRangeText(number, 0, field.value.length, "end");
     number = "";
   });
   field.addEventListener("keydown", (event) => {
