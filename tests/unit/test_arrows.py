@@ -30,7 +30,7 @@ DRAWINGS = {
         exporting_splits
         importing  exporting  backup  about
         taken_out  relinking
-        journal  formats  migrations  image_history
+        journal  formats  migrations  image_history  reversals
         judging
         statuses  splits  exported_photos
         own_work
