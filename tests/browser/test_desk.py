@@ -94,11 +94,9 @@ def test_an_image_is_sent_back_with_a_comment_another_rejected_with_a_reason(
 
 
 def test_what_was_said_of_a_cap_is_taken_back_by_undo_and_what_is_decided_stays_so_on_coming_back(
-    project: Path, server: Server, open_tab: OpenTab
+    project: Path, watched: Tab
 ) -> None:
-    tab = open_tab(server, name="Rev")
-    tab.press(".")
-    selected(tab, uid_of(1, 4))
+    tab = watched
     tab.press("u")
     tab.page.get_by_text("2 of 3 differences").wait_for()
     tab.press("Control+z")
@@ -118,12 +116,8 @@ def test_what_was_said_of_a_cap_is_taken_back_by_undo_and_what_is_decided_stays_
     ]
 
 
-def test_what_was_said_of_a_cap_is_taken_back_also_after_a_reload(
-    project: Path, server: Server, open_tab: OpenTab
-) -> None:
-    tab = open_tab(server, name="Rev")
-    tab.press(".")
-    selected(tab, uid_of(1, 4))
+def test_what_was_said_of_a_cap_is_taken_back_also_after_a_reload(project: Path, watched: Tab) -> None:
+    tab = watched
     tab.press("u")
     tab.saved()
     tab.reload()

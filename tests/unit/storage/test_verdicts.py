@@ -249,9 +249,7 @@ def test_undoing_a_sending_back_withdraws_it(annotated):
 
 def test_what_somebody_said_last_of_a_cap_is_theirs_to_withdraw(annotated):
     judge(annotated, "v1", annotation="cap")
-    assert "no longer what was said last" in reason(
-        judge(annotated, "v2", says="withdrawn", annotation="cap", user="bob")
-    )
+    assert "no longer" in reason(judge(annotated, "v2", says="withdrawn", annotation="cap", user="bob"))
     assert status(judge(annotated, "v3", says="withdrawn", annotation="cap")) == "annotated"
     assert "no longer" in reason(judge(annotated, "v4", says="withdrawn", annotation="cap"))
     assert [says for _, says, *_ in given(annotated)] == ["approved", "withdrawn"]
