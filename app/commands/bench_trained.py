@@ -132,3 +132,40 @@ def ablation(
             progress=progress,
         )
     print_rows("ablation", rows, as_json=as_json)
+
+
+@commands.command()
+def ladder(
+    *,
+    out: Runs,
+    labels: Annotated[
+        Path | None, typer.Option(help="COCO file of labelled photos to learn from as well; else none.")
+    ] = None,
+    iterations: Iterations = 600,
+    train_beds: TrainBeds = 40,
+    crop: CropSide = 256,
+    count: Count = None,
+    real: Real = None,
+    device: OnDevice = Device.auto,
+    as_json: AsJson = False,
+) -> None:
+    """What rims, real labels, resolution, two passes, quality and whole caps brought, all trained alike.
+
+    Example: `fairyring bench network ladder --out ladder --labels corrected/instances.json --real photos`
+    """
+    from fairyring.app.bench.network.ladder import ladder_rows
+    from fairyring.app.jobs.training_labels import labels_of_coco
+    from fairyring.model.device import device_of
+
+    with shown_on_stderr() as progress:
+        rows = ladder_rows(
+            folder=out,
+            sets=labelled_sets(out, count, real, progress),
+            real=labels_of_coco([labels], progress=progress).examples if labels else (),
+            beds=train_beds,
+            iterations=iterations,
+            crop=crop,
+            device=device_of(device),
+            progress=progress,
+        )
+    print_rows("ladder", rows, as_json=as_json)

@@ -14,6 +14,7 @@ from fairyring.app.bench.network.tables import MASK_FIGURES, PAPER_MASKS, mask_r
 from fairyring.model.coco.document import document_of
 from fairyring.model.evaluate.masks import evaluate_masks
 from fairyring.model.network.decode import DecodeConfig
+from fairyring.model.network.pr_solov2 import PRSOLOv2
 from fairyring.model.network.weights import load_weights
 from fairyring.model.photo import Pixels
 from fairyring.model.predict.predictor import Predictor
@@ -100,8 +101,12 @@ def trained_variant(
     folder: Path,
     device: torch.device,
     progress: Progress,
+    base: PRSOLOv2 | None = None,
 ) -> Path:
-    """Trains a variant in a folder of its own in ``folder`` unless that was done, and returns that folder."""
+    """Trains a variant in a folder of its own in ``folder`` unless that was done, and returns that folder.
+
+    ``base`` is trained further where given (and changed), else a new network is.
+    """
 
     def report(step: TrainingProgress) -> None:
         progress(step.iteration, step.iterations, f"training {name}")
@@ -109,5 +114,5 @@ def trained_variant(
     out = folder / f"{recipe.iterations} {name}".replace(" ", "_").replace(",", "")
     if not (out / FINAL).exists():
         resume = (out / "last.pt").exists()
-        train(examples, [], out, recipe=recipe, device=device, resume=resume, report=report)
+        train(examples, [], out, recipe=recipe, device=device, base=base, resume=resume, report=report)
     return out

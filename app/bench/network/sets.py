@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from fairyring.model import photo
+from fairyring.model.coco.annotations import shape_of
 from fairyring.model.errors import FairyringError
+from fairyring.model.geometry.shapes import Shape
 from fairyring.model.json_files import read_json
 from fairyring.model.photo import Pixels
 from fairyring.model.progress import Progress
 from fairyring.model.scene.dataset import DOCUMENT, write_beds
 from fairyring.model.scene.presets import preset
+from fairyring.model.scene.settings import Settings
 from fairyring.model.train.data import Example
 
 TEST_BEDS = {"paper": (48, 3003), "farm": (20, 3001)}
@@ -62,12 +65,21 @@ def rendered(name: str, folder: Path, *, count: int | None = None, progress: Pro
     return _read(name, out / DOCUMENT)
 
 
-def rendered_for_training(folder: Path, count: int, progress: Progress) -> list[LabelledPhotos]:
-    """So many beds of each training preset, rendered into ``folder`` unless they are there already."""
+def _as_it_is(settings: Settings) -> Settings:
+    return settings
+
+
+def rendered_for_training(
+    folder: Path, count: int, progress: Progress, *, changed: Callable[[Settings], Settings] = _as_it_is
+) -> list[LabelledPhotos]:
+    """So many beds of each training preset, rendered into ``folder`` unless they are there already.
+
+    ``changed`` says how the preset's settings are changed before.
+    """
     sets = []
     for name, seed in TRAINING_SEEDS.items():
         out = folder / f"train_{name}"
-        write_beds(out, preset(name), count=count, seed=seed, resume=True, progress=progress)
+        write_beds(out, changed(preset(name)), count=count, seed=seed, resume=True, progress=progress)
         sets.append(_read(name, out / DOCUMENT))
     return sets
 
@@ -80,10 +92,18 @@ def checked(folder: Path) -> LabelledPhotos:
 def examples_of(photos: LabelledPhotos) -> list[Example]:
     """The photos as examples to learn from, all their caps labelled."""
     caps: dict[Any, list[list[list[float]]]] = defaultdict(list)
+    wholes: dict[Any, list[Shape | None]] = defaultdict(list)
     for cap in photos.document["annotations"]:
         caps[cap["image_id"]].append(cap["segmentation"])
+        wholes[cap["image_id"]].append(shape_of(cap))
     return [
-        Example(path=path, width=entry["width"], height=entry["height"], caps=caps[entry["id"]])
+        Example(
+            path=path,
+            width=entry["width"],
+            height=entry["height"],
+            caps=caps[entry["id"]],
+            wholes=wholes[entry["id"]],
+        )
         for entry, path in zip(photos.document["images"], photos.photos, strict=True)
     ]
 

@@ -14,8 +14,11 @@ import torch
 from typer.testing import CliRunner
 
 from fairyring.app.bench.network import sets
+from fairyring.app.bench.network.ladder import crisp, whole_resolution
 from fairyring.app.bench.network.quality import rank_correlation
 from fairyring.app.cli import app
+from fairyring.model.network.config import NetworkConfig
+from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import PRESETS
 from fairyring.model.scene.settings import Growth, Settings
 from tests.support.sighted import write_weights
@@ -32,7 +35,7 @@ def table(tmp_path_factory: pytest.TempPathFactory) -> Table:
 
     def rows(name: str, *options: str | Path) -> list[dict[str, Any]]:
         arguments = ["bench", "network", name, "--device", "cpu", "--json", *map(str, options)]
-        if name not in ("ablation", "alike"):
+        if name not in ("ablation", "alike", "ladder"):
             arguments += ["--beds", str(folder / "beds"), "--weights", str(folder / "small.safetensors")]
         result = CliRunner().invoke(app, arguments, catch_exceptions=False)
         assert result.exit_code == 0, result.output
@@ -140,3 +143,39 @@ def test_systems_trained_alike_stand_beside_the_papers_figures(table: Table, tmp
             assert 100 < row["peak_MB"] < 4000
             assert 1 < row["parameters_M"] < 30
     assert len(list(tmp_path.glob("1_*/weights.safetensors"))) == 4
+
+
+def test_the_ladder_has_a_row_for_each_step_and_set_all_trained_alike(table: Table, tmp_path: Path) -> None:
+    write_beds(tmp_path / "corrected", SMALL, count=1, seed=5)
+    labels = tmp_path / "corrected" / "instances.json"
+    options = ("--iterations", "1", "--crop", "64", "--train-beds", "1", "--count", "1")
+    rows = table("ladder", "--out", tmp_path / "runs", "--labels", labels, *options)
+    steps = ["crisp rims", "soft rims", "real labels", "whole resolution (aside)", "two passes", "quality"]
+    expected = [(step, name) for step in [*steps, "whole caps"] for name in ("paper", "farm")]
+    assert [(row["step"], row["set"]) for row in rows] == expected
+    recipes = [json.loads(path.read_text())["recipe"] for path in (tmp_path / "runs").glob("1_*/run.json")]
+    assert len(recipes) == 5
+    assert {(recipe["iterations"], recipe["crop"]["side"]) for recipe in recipes} == {(1, 64)}
+    assert sorted(recipe["network"]["reduction"] for recipe in recipes) == [1, 2, 2, 2, 2]
+    assert len({recipe["seed"] for recipe in recipes if recipe["learns"] == "network"}) == 1
+
+
+def test_without_real_labels_that_step_is_left_out(table: Table, tmp_path: Path) -> None:
+    options = ("--iterations", "1", "--crop", "64", "--train-beds", "1", "--count", "1")
+    rows = table("ladder", "--out", tmp_path, *options)
+    assert "real labels" not in {row["step"] for row in rows}
+    assert len(rows) == 6 * 2
+
+
+def test_crisp_beds_throw_no_light_on_each_other_and_are_all_in_focus() -> None:
+    was, now = PRESETS["mixed"], crisp(PRESETS["mixed"])
+    assert (now.flesh.interreflection, now.flesh.translucency) == ((0, 0), (0, 0))
+    assert (now.camera.defocus, now.growth.fused) == (0, (0, 0))
+    assert (now.growth.caps, now.skin, now.soil) == (was.growth.caps, was.skin, was.soil)
+
+
+def test_levels_learn_caps_of_the_same_size_at_whole_resolution() -> None:
+    was = NetworkConfig()
+    now = whole_resolution(was)
+    for before, after in zip(was.scale_ranges, now.scale_ranges, strict=True):
+        assert [side * was.reduction for side in before] == [side * now.reduction for side in after]
