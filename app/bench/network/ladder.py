@@ -98,13 +98,13 @@ def _steps(
     steps = [Step(name="crisp rims", weights=weights)]
     weights = learn("soft rims", recipe, soft_beds) / FINAL
     steps.append(Step(name="soft rims", weights=weights))
+    whole = replace(recipe, network=whole_resolution(recipe.network))
+    aside = learn("whole resolution", whole, soft_beds) / FINAL
+    steps.append(Step(name="whole resolution (aside)", weights=aside))
     photos = [*soft_beds, *real]
     if real:
         weights = learn("real labels", recipe, photos) / FINAL
         steps.append(Step(name="real labels", weights=weights))
-    whole = replace(recipe, network=whole_resolution(recipe.network))
-    aside = learn("whole resolution", whole, photos) / FINAL
-    steps.append(Step(name="whole resolution (aside)", weights=aside))
     steps.append(Step(name="two passes", weights=weights, passes=TWO_PASSES))
     second = _second_look(recipe)
     base = with_second_look(load_weights(weights).network, seed=second.seed)

@@ -150,7 +150,7 @@ def test_the_ladder_has_a_row_for_each_step_and_set_all_trained_alike(table: Tab
     labels = tmp_path / "corrected" / "instances.json"
     options = ("--iterations", "1", "--crop", "64", "--train-beds", "1", "--count", "1")
     rows = table("ladder", "--out", tmp_path / "runs", "--labels", labels, *options)
-    steps = ["crisp rims", "soft rims", "real labels", "whole resolution (aside)", "two passes", "quality"]
+    steps = ["crisp rims", "soft rims", "whole resolution (aside)", "real labels", "two passes", "quality"]
     expected = [(step, name) for step in [*steps, "whole caps"] for name in ("paper", "farm")]
     assert [(row["step"], row["set"]) for row in rows] == expected
     recipes = [json.loads(path.read_text())["recipe"] for path in (tmp_path / "runs").glob("1_*/run.json")]
