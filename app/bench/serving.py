@@ -7,10 +7,11 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 from urllib.request import urlopen
 
 START_S = 180.0
@@ -31,13 +32,31 @@ def free_port() -> int:
         return listening.getsockname()[1]
 
 
+class Running(Protocol):
+    """A process, as far as a server's is looked after; `subprocess.Popen` is one."""
+
+    @property
+    def pid(self) -> int: ...
+    def poll(self) -> int | None: ...
+    def wait(self, timeout: float | None = None) -> int: ...
+    def send_signal(self, number: signal.Signals, /) -> None: ...
+    def kill(self) -> None: ...
+
+
+def as_a_shell_would(words: Sequence[str]) -> Running:
+    """Starts ``fairyring`` with these words."""
+    return subprocess.Popen([*FAIRYRING, *words])
+
+
 @dataclass
 class Server:
     """``fairyring serve``, at the same port every time it is started."""
 
     project: Path
     port: int = field(default_factory=free_port)
-    process: subprocess.Popen[bytes] | None = None
+    process: Running | None = None
+    run: Callable[[Sequence[str]], Running] = as_a_shell_would
+    """Starts the command."""
 
     @property
     def url(self) -> str:
@@ -47,7 +66,7 @@ class Server:
     def start(self) -> None:
         """Starts it and waits until it answers; ConnectionError if it does not."""
         serve = ["serve", str(self.project), "--port", str(self.port), "--no-token"]
-        self.process = subprocess.Popen([*FAIRYRING, *serve])
+        self.process = self.run(serve)
         deadline = time.monotonic() + START_S
         while not self._answers():
             if (code := self.process.poll()) is not None or time.monotonic() > deadline:

@@ -22,6 +22,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from fairyring.app.addresses import DOWNLOADS, PHOTOS, REVIEWS, UPLOADS
+from fairyring.app.caps import tasks
 from fairyring.app.gateway.access import Door, OnlyWithPass, door_of
 from fairyring.app.gateway.bounded_sockets import sockets_of_one_server
 from fairyring.app.gateway.downloads import downloads_of
@@ -43,6 +44,7 @@ from fairyring.app.live.watching import watch
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.settings import Settings, load_settings
 from fairyring.app.workers.crew import crew
+from fairyring.app.workers.worker import keep_at_hand
 from fairyring.model.errors import FairyringError
 from fairyring.storage.importing.staging import clear_killed_imports
 from fairyring.storage.project import Project, open_project
@@ -82,6 +84,7 @@ def serve(
         _clear_leftovers(project)
         if project.read_only:
             log.warning("%s is read-only: it is shown as it is now, and changes are refused.", project.folder)
+        keep_at_hand([tasks.__name__])
         workspace = Workspace(project, settings, crew=crew(apart=True))
         door = door_of(project.cache, project_id=project.id) if settings.token else None
 

@@ -10,6 +10,7 @@ import asyncio
 from contextlib import suppress
 
 from fairyring.app.caps.image_caps import ImageCaps
+from fairyring.app.caps.tasks import fit_all, take_note
 from fairyring.app.live.session import Session
 from fairyring.app.workers.crew import Crew
 from fairyring.app.workers.worker import LAST, Worker, WorkerError
@@ -43,13 +44,3 @@ async def _get_ready(crew: Crew, session: Session, caps: ImageCaps) -> None:
         await session.copy.ask(crew.of_image(caps.image.id), caps, take_note, urgency=LAST)
         if len(caps.predictions) > A_FEW:
             await session.copy.ask(crew.bulk, caps, fit_all, urgency=LAST)
-
-
-def take_note(_caps: ImageCaps) -> None:
-    """Does nothing more: a process that is asked about caps has begun, and keeps them."""
-
-
-def fit_all(caps: ImageCaps) -> None:
-    """Fits all that is visible: what is asked later is known already."""
-    visible = list(caps.visible.values())
-    caps.fitting.reconstructions(visible, visible=visible)

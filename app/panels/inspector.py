@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 from sqlalchemy import Connection
 
-from fairyring.app.caps.comparison import compare_cap, near_cap
+from fairyring.app.caps.comparison import near_cap
 from fairyring.app.caps.image_caps import ImageCaps
 from fairyring.app.caps.records import truth_record
 from fairyring.app.caps.repeated import marks_on
-from fairyring.app.caps.whole_outlines import arcs_of, note_of, reconstruction_of
+from fairyring.app.caps.tasks import judged
 from fairyring.app.live.session import Session
 from fairyring.app.live.workspace import Workspace
 from fairyring.app.panels.arcs import arcs_list
@@ -115,15 +115,9 @@ async def _background(
         )
     )
     worker = workspace.crew.of_image(caps.image.id)
-    judged = await session.copy.ask(worker, caps, _judged, annotation.uid, near_cap(annotation, said))
-    note, arcs, pair = judged
+    near = near_cap(annotation, said)
+    note, arcs, pair = await session.copy.ask(worker, caps, judged, annotation.uid, near)
     return replace(await workspace.read(gather), note=note, arcs=arcs, pair=pair)
-
-
-def _judged(caps: ImageCaps, uid: str, said: Sequence[Prediction]) -> tuple[str, list[Arc], Pair | None]:
-    """How a cap's whole outline came about, from which arcs, and its matching prediction among those near."""
-    found = reconstruction_of(uid, caps.annotations[uid].cap, caps)
-    return note_of(found), arcs_of(found), compare_cap(replace(caps, predictions=said), uid)
 
 
 def annotation_facts(annotation: Annotation, background: Background, *, second: str | None = None) -> Markup:

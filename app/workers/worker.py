@@ -12,11 +12,11 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from multiprocessing.context import ForkServerProcess
 from queue import PriorityQueue
 from traceback import format_exc
 from typing import Any, TypeVar
@@ -37,6 +37,11 @@ URGENT, ASKED, LAST = range(3)
 Found = TypeVar("Found")
 Task = tuple[Callable[..., Any], tuple[Any, ...]]
 """A function, which a process can import by its name, and what it is given."""
+
+
+def keep_at_hand(modules: Sequence[str]) -> None:
+    """Has processes that are started from now on share these modules, imported once, by name."""
+    multiprocessing.get_context("forkserver").set_forkserver_preload(list(modules))
 
 
 class WorkerError(FairyringError):
@@ -154,13 +159,13 @@ class _Process:
     """The process, on its way up or ready."""
 
     def __init__(self, *, nice: int) -> None:
-        context = multiprocessing.get_context("spawn")
+        context = multiprocessing.get_context("forkserver")
         self._line, theirs = context.Pipe()
         self._has_begun = False
-        self._process: SpawnProcess = context.Process(target=_serve, args=(theirs, nice), daemon=True)
+        self._process: ForkServerProcess = context.Process(target=_serve, args=(theirs, nice), daemon=True)
         try:
             self._process.start()
-        except (OSError, RuntimeError) as error:
+        except (OSError, EOFError, RuntimeError) as error:
             raise _DiedError(error, had_begun=False) from error
         finally:
             theirs.close()

@@ -12,6 +12,7 @@ from playwright.sync_api import Browser
 from fairyring.app.bench.browser.tab import Tab, chromium
 from fairyring.app.bench.serving import Server
 from fairyring.app.demo.making import make_demo
+from tests.support.forked import forked_server
 from tests.support.once import made_by_the_first
 from tests.support.said import RECORDING
 
@@ -53,7 +54,7 @@ def project(demo: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def server(project: Path) -> Iterator[Server]:
-    served = Server(project)
+    served = forked_server(project)
     served.start()
     yield served
     if served.process and served.process.poll() is None:

@@ -12,6 +12,7 @@ from fairyring.app.bench.browser.tab import Tab
 from fairyring.app.bench.serving import Server
 from tests.support.annotated_beds import make_annotated_beds
 from tests.support.desk import choose, on_image, said_of, say_yes, status_of
+from tests.support.forked import forked_server
 
 OpenTab = Callable[..., Tab]
 
@@ -61,7 +62,7 @@ def test_a_queue_is_gone_through_with_the_agreement_and_taken_up_again_after_a_r
 def test_a_random_sample_that_passes_has_the_rest_approved(tmp_path: Path, browser: Browser) -> None:
     (tmp_path / "lot").mkdir()
     project = make_annotated_beds(tmp_path / "lot", count=12)
-    server = Server(project)
+    server = forked_server(project)
     server.start()
     context = browser.new_context(viewport={"width": 1500, "height": 900})
     try:

@@ -14,10 +14,10 @@ from pycocotools.coco import COCO
 from typer.testing import CliRunner
 
 from fairyring.app.bench.browser.tab import Tab, centroid
-from fairyring.app.bench.serving import Server
 from fairyring.app.cli import app
 from fairyring.model.scene.dataset import write_beds
 from fairyring.model.scene.presets import preset
+from tests.support.forked import forked_server
 
 
 def fairyring(*words: str | Path) -> str:
@@ -43,7 +43,7 @@ def imported(beds: Path, tmp_path: Path) -> Path:
 def test_corrected_labels_survive_a_power_cut_and_load_elsewhere(
     imported: Path, open_tab: Callable[..., Tab], tmp_path: Path
 ) -> None:
-    server = Server(imported)
+    server = forked_server(imported)
     server.start()
     tab = open_tab(server)
     before = tab.state("shapes")

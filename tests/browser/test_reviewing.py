@@ -10,13 +10,13 @@ import pytest
 from playwright.sync_api import expect
 
 from fairyring.app.bench.browser.tab import Tab
-from fairyring.app.bench.serving import Server
 from fairyring.model.geometry.shapes import Circle, Ellipse, fit_of_shape
 from fairyring.storage.contents import load_contents
 from fairyring.storage.images import ImageFilter, list_images
 from fairyring.storage.journal import Derived, commit
 from fairyring.storage.project import open_project
 from fairyring.storage.records import Cap, Edit
+from tests.support.forked import forked_server
 
 OFF_PX = 6.4
 
@@ -60,7 +60,7 @@ def test_the_review_lists_cdr_and_a_click_opens_the_image_at_its_worst_cap(
     marked: tuple[Path, str], open_tab: Callable[..., Tab]
 ) -> None:
     project, file_name = marked
-    server = Server(project)
+    server = forked_server(project)
     server.start()
     try:
         tab = open_tab(server)

@@ -16,6 +16,7 @@ from fairyring.app.bench.serving import Server
 from fairyring.storage.importing.paths import import_paths
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import create_project
+from tests.support.forked import forked_server
 
 COUNT, COLUMNS, PITCH = 2000, 50, 40
 WITHIN_MS = 200_000
@@ -42,7 +43,7 @@ def crowded(tmp_path: Path) -> Iterator[Server]:
             add_predictions(connection, run_id=run.id, image_id=1, predictions=seen)
 
         project.write(predict)
-    server = Server(tmp_path / "beds")
+    server = forked_server(tmp_path / "beds")
     server.start()
     yield server
     server.stop()

@@ -17,6 +17,7 @@ from fairyring.storage.journal import Derived, commit
 from fairyring.storage.predictions import NewPrediction, add_predictions, add_run
 from fairyring.storage.project import create_project
 from fairyring.storage.records import Cap, Edit
+from tests.support.forked import forked_server
 from tests.support.kept import journal_of, kept_cap, live_caps
 
 SQUARE = [[100.0, 100.0, 200.0, 100.0, 200.0, 200.0, 100.0, 200.0]]
@@ -44,7 +45,7 @@ def squares(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def served(squares: Path) -> Iterator[Server]:
-    server = Server(squares)
+    server = forked_server(squares)
     server.start()
     yield server
     if server.process and server.process.poll() is None:

@@ -57,7 +57,8 @@ def test_a_server_that_is_told_to_end_closes_the_project(folder: Path, told: sig
 def workers_of(server: Server) -> list[int]:
     """The processes that compute for a server."""
     assert server.process is not None
-    return [pid for pid in children_of(server.process.pid) if "spawn_main" in words_of(pid)]
+    forking = [pid for pid in children_of(server.process.pid) if "forkserver" in words_of(pid)]
+    return [worker for pid in forking for worker in children_of(pid)]
 
 
 def test_a_killed_worker_costs_nobody_an_edit(folder: Path) -> None:
