@@ -29,7 +29,7 @@ class Return(Struct, frozen=True, kw_only=True):
     deleted: bool = False
 
 
-class Word(Struct, frozen=True, kw_only=True):
+class VerdictToWithdraw(Struct, frozen=True, kw_only=True):
     """What somebody said of a cap, or of the image where ``annotation`` is None."""
 
     annotation: str | None
@@ -48,7 +48,7 @@ class Reversal(Struct, frozen=True, kw_only=True):
     """How many others there are."""
     status: tuple[Status, Status] | None
     """The status as the change set left it, if it is so still, and as it was before."""
-    word: Word | None = None
+    verdict: VerdictToWithdraw | None = None
     """What was said in it without another status, if nothing was said since; to be withdrawn."""
 
 
@@ -73,7 +73,7 @@ def next_reversal(connection: Connection, image_id: int, *, user: str, way: Way)
     done, undone = _stacks(list(connection.execute(statement)))
     for row in (done if way == "undo" else undone)[: -MOST_TRIED - 1 : -1]:
         found = _reversal(connection, row)
-        if found.returns or found.status or found.word:
+        if found.returns or found.status or found.verdict:
             return found
     return None
 
@@ -111,11 +111,11 @@ def _reversal(connection: Connection, row: Row) -> Reversal:
         returns=_returns(connection, now, [first[uid] for uid in left]),
         changed_since=len(first) - len(left),
         status=(status[1], status[0]) if status is not None and holds else None,
-        word=None if status is not None else _last_word(connection, row),
+        verdict=None if status is not None else _last_verdict(connection, row),
     )
 
 
-def _last_word(connection: Connection, row: Row) -> Word | None:
+def _last_verdict(connection: Connection, row: Row) -> VerdictToWithdraw | None:
     """What was said in a change set, where nothing was said of the same cap or image since."""
     said = verdicts_by_change_set(connection, [row.sequence]).get(row.sequence)
     if said is None or said.says in ("comment", "withdrawn"):
@@ -126,7 +126,7 @@ def _last_word(connection: Connection, row: Row) -> Word | None:
     cap = said.annotation
     if cap is not None and stored_annotations(connection, [cap])[cap].deleted:
         return None
-    return Word(annotation=said.annotation, says=said.says, words=said.words)
+    return VerdictToWithdraw(annotation=said.annotation, says=said.says, words=said.words)
 
 
 def _returns(connection: Connection, now: Mapping[str, Annotation], firsts: Sequence[Row]) -> list[Return]:

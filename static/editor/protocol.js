@@ -31,7 +31,7 @@
 /** @typedef {import("./messages/records.js").Way} Way */
 /** @typedef {import("./messages/records.js").Return} Return */
 /** @typedef {import("./messages/records.js").Reversal} Reversal */
-/** @typedef {import("./messages/records.js").Word} Word */
+/** @typedef {import("./messages/records.js").VerdictToWithdraw} VerdictToWithdraw */
 /** @typedef {import("./messages/records.js").ImageContents} ImageContents */
 
 /** @typedef {import("./messages/to_server.js").Hello} Hello */

@@ -46,9 +46,9 @@ export function travelIn(state, { open, say, tell, said }) {
   });
   return {
     /** @type {(travelled: Travelled) => void} */
-    travelled({ image, way, changes, stayed, word }) {
+    travelled({ image, way, changes, stayed, verdict }) {
       // Of a status the server says what it is again.
-      const words = word ? `what you said of ${word.annotation ? "a cap" : "the image"}` : wordsOfChanges(way === "undo" ? changes.map(turned) : changes);
+      const words = verdict ? `what you said of ${verdict.annotation ? "a cap" : "the image"}` : wordsOfChanges(way === "undo" ? changes.map(turned) : changes);
       if (words) tell(`${DONE[way]}: ${words}.`);
       if (stayed) say(`${stayed} of these caps were changed since and stay as they are.`);
       if (image !== state.image?.id) return open(image, null);
@@ -56,7 +56,7 @@ export function travelIn(state, { open, say, tell, said }) {
       const seen = own.length ? own : changes;
       const uids = seen.flatMap(({ before, after }) => (after.deleted ? openAgain(before) : after.uid));
       const known = uids.filter((uid) => state.items.get(uid));
-      if (word?.annotation) said(word.annotation, way);
+      if (verdict?.annotation) said(verdict.annotation, way);
       if (changes.length) state.select(known.length <= MOST_SELECTED ? known : []);
       // The view stays where it is: whoever works there may not want to be taken away.
       if (state.selected.length && !state.selectionOnScreen) say(OUT_OF_SIGHT);

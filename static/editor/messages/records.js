@@ -184,7 +184,7 @@
  */
 
 /**
- * @typedef {Object} Word
+ * @typedef {Object} VerdictToWithdraw
  * @property {string | null} annotation
  * @property {Says} says
  * @property {string} words
@@ -197,7 +197,7 @@
  * @property {Return[]} returns
  * @property {number} changed_since
  * @property {[Status, Status] | null} status
- * @property {Word | null} word
+ * @property {VerdictToWithdraw | null} verdict
  */
 
 /**

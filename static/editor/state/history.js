@@ -12,7 +12,7 @@ import { untouched } from "./untouched.js";
 /** @typedef {import("../protocol.js").Status} Status */
 /** @typedef {import("./changes.js").Change} Change */
 /** @typedef {{before: Status, after: Status}} StatusChange */
-/** What a reviewer said of a cap, or of the image where `annotation` is null. @typedef {import("../protocol.js").Word} Word */
+/** What a reviewer said of a cap, or of the image where `annotation` is null. @typedef {import("../protocol.js").VerdictToWithdraw} VerdictToWithdraw */
 
 /**
  * What was done in one go.
@@ -21,13 +21,13 @@ import { untouched } from "./untouched.js";
  * @property {string[]} ids  the change sets that did it, took it back, did it again …; the newest one last
  * @property {Change[]} changes
  * @property {StatusChange | null} status
- * @property {Word | null} [word]
+ * @property {VerdictToWithdraw | null} [verdict]
  */
 
 /**
  * What is to be done now, and the change set that this takes back.
  *
- * @typedef {{takesBack: string, changes: Change[], status: StatusChange | null, word?: Word | null}} Move
+ * @typedef {{takesBack: string, changes: Change[], status: StatusChange | null, verdict?: VerdictToWithdraw | null}} Move
  */
 
 export class History {
@@ -81,7 +81,7 @@ export class History {
     const set = this.#undone.pop();
     if (!set) return null;
     this.#done.push({ ...set, ids: [...set.ids, id] });
-    return { takesBack: newest(set), changes: onTopOf(set.changes, current), status: set.status, word: (!set.status && set.word) || null };
+    return { takesBack: newest(set), changes: onTopOf(set.changes, current), status: set.status, verdict: (!set.status && set.verdict) || null };
   }
 
   /**
@@ -95,7 +95,7 @@ export class History {
 
   /** Somebody else said something else of the image. */
   forgetStatus() {
-    this.#mend((set) => ({ ...set, status: null, word: set.word?.annotation ? set.word : null }));
+    this.#mend((set) => ({ ...set, status: null, verdict: set.verdict?.annotation ? set.verdict : null }));
   }
 
   /**
@@ -119,13 +119,13 @@ export class History {
 
   /** A change of status was refused. @type {(changeSet: string) => void} */
   refusedStatus(changeSet) {
-    this.#mend((set) => (set.ids.includes(changeSet) ? { ...set, status: null, word: null } : set));
+    this.#mend((set) => (set.ids.includes(changeSet) ? { ...set, status: null, verdict: null } : set));
   }
 
   /** @type {(mend: (set: ChangeSet) => ChangeSet) => void} */
   #mend(mend) {
     const mended = (/** @type {ChangeSet[]} */ sets) =>
-      sets.map(mend).filter(({ changes, status, word }) => changes.length > 0 || status || word);
+      sets.map(mend).filter(({ changes, status, verdict }) => changes.length > 0 || status || verdict);
     this.#done = mended(this.#done);
     this.#undone = mended(this.#undone);
   }
@@ -133,7 +133,7 @@ export class History {
   /** Whether what was done last was to say something of the image. */
   get endsInStatus() {
     const last = this.#done.at(-1);
-    return Boolean(last && (last.status || last.word?.annotation === null));
+    return Boolean(last && (last.status || last.verdict?.annotation === null));
   }
 
   get depth() {
@@ -143,13 +143,13 @@ export class History {
 
 /** What takes a set back. @type {(set: ChangeSet, current: (uid: string) => Shape | null) => Move} */
 export function backwards(set, current) {
-  const { changes, status, word } = set;
+  const { changes, status, verdict } = set;
   return {
     takesBack: newest(set),
     changes: onTopOf(inverse(changes), current),
     status: status && { before: status.after, after: status.before },
     // With the status of an image the server withdraws what was said of it.
-    word: word && !status ? { ...word, says: "withdrawn", words: "" } : null,
+    verdict: verdict && !status ? { ...verdict, says: "withdrawn", words: "" } : null,
   };
 }
 

@@ -5,27 +5,28 @@
  */
 
 export class Answers {
-  /** By change set. @type {Map<string, (stored: boolean) => void>} */
+  /** By change set. @type {Map<string, {image: number, resolve: (stored: boolean) => void}>} */
   #waiting = new Map();
 
-  get awaited() {
-    return this.#waiting.size > 0;
+  /** Whether an answer about this image is still to come. @type {(image: number) => boolean} */
+  areAwaitedOf(image) {
+    return [...this.#waiting.values()].some((each) => each.image === image);
   }
 
-  /** @type {(changeSet: string) => Promise<boolean>} whether it was not refused */
-  to(changeSet) {
-    return new Promise((resolve) => this.#waiting.set(changeSet, resolve));
+  /** @type {(changeSet: string, image: number) => Promise<boolean>} whether it was not refused */
+  to(changeSet, image) {
+    return new Promise((resolve) => this.#waiting.set(changeSet, { image, resolve }));
   }
 
   /** @type {(changeSet: string, stored: boolean) => void} */
   come(changeSet, stored) {
-    this.#waiting.get(changeSet)?.(stored);
+    this.#waiting.get(changeSet)?.resolve(stored);
     this.#waiting.delete(changeSet);
   }
 
   /** The server is out of reach: what was said is kept and sent later, and nobody is held up meanwhile. */
   goOnWithout() {
-    for (const resolve of this.#waiting.values()) resolve(true);
+    for (const { resolve } of this.#waiting.values()) resolve(true);
     this.#waiting.clear();
   }
 }

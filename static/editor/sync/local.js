@@ -66,7 +66,7 @@ export class Local {
    * @param {string} changeSet
    * @param {Move} move
    */
-  carryOut(image, changeSet, { takesBack, changes, status, word }) {
+  carryOut(image, changeSet, { takesBack, changes, status, verdict }) {
     const { outbox, store } = this;
     const whence = { image, changeSet, takesBack };
     const edits = changes.map((change) => (outbox.holds(change.after.uid) ? [] : editsOfChange(change, whence)));
@@ -75,7 +75,7 @@ export class Local {
       return { ...change, after: { ...change.after, revision } };
     });
     store.apply(shown);
-    const said = word ? [{ ...word, id: newId(), image, change_set: changeSet }] : [];
+    const said = verdict ? [{ ...verdict, id: newId(), image, change_set: changeSet }] : [];
     const all = [...edits.flat(), ...(status ? [editOfStatus(status, whence)] : []), ...said];
     if (all.length) outbox.add(all);
     for (const { after } of changes) this.#foldIntoHeld(after);

@@ -79,7 +79,7 @@ export class Recalling {
  * @param {Reversal} reversal
  * @returns {ChangeSet}
  */
-export function changeSetOf({ id, returns, status, word }) {
+export function changeSetOf({ id, returns, status, verdict }) {
   return {
     ids: [id],
     changes: returns.map(({ annotation, cap, deleted }) => {
@@ -87,6 +87,6 @@ export function changeSetOf({ id, returns, status, word }) {
       return { before: cap && { ...after, cap, deleted }, after };
     }),
     status: status && { before: status[1], after: status[0] },
-    word,
+    verdict,
   };
 }

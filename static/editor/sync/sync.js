@@ -140,11 +140,11 @@ export class Sync {
   async say(after) {
     const [id, before] = [newId(), this.status];
     // The key pressed twice: whoever pressed it first goes on.
-    if (before === after) return !this.#answers.awaited;
+    if (before === after) return !this.#answers.areAwaitedOf(this.image);
     const status = { before, after };
     this.#travelling.done(this.image);
     this.#local.historyOf(this.image).push({ ids: [id], changes: [], status });
-    const answer = this.#answers.to(id);
+    const answer = this.#answers.to(id, this.image);
     this.#carryOut(this.image, id, { takesBack: "", changes: [], status });
     return answer;
   }
@@ -158,16 +158,16 @@ export class Sync {
    * @returns {Promise<boolean>} whether it was not refused
    */
   async judge(annotation, says, words) {
-    const [changeSet, before, word] = [newId(), this.status, { annotation, says, words }];
+    const [changeSet, before, said] = [newId(), this.status, { annotation, says, words }];
     /** @type {import("../protocol.js").Verdict} */
-    const verdict = { ...word, id: newId(), image: this.image, change_set: changeSet };
+    const verdict = { ...said, id: newId(), image: this.image, change_set: changeSet };
     const after = statusAfter(before, [verdict]);
     if (says !== "comment") {
       this.#travelling.done(annotation === null ? this.image : null);
       const status = before === after ? null : { before, after };
-      this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status, word });
+      this.#local.historyOf(this.image).push({ ids: [changeSet], changes: [], status, verdict: said });
     }
-    const answer = this.#answers.to(changeSet);
+    const answer = this.#answers.to(changeSet, this.image);
     this.#local.outbox.add([verdict]);
     this.#send();
     return answer;

@@ -15,7 +15,7 @@ import { Recalling, changeSetOf } from "./recalling.js";
 /** @typedef {import("./local.js").Local} Local */
 /** @typedef {"undo" | "redo"} Way */
 
-/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], stayed: number, word: import("../protocol.js").Word | null}} Travelled */
+/** What was taken back or done again, and how many caps were not, as others have changed them since. @typedef {{image: number, way: Way, changes: Change[], stayed: number, verdict: import("../protocol.js").VerdictToWithdraw | null}} Travelled */
 
 /**
  * @typedef {Object} Wires
@@ -90,9 +90,9 @@ export class Travelling {
     if (!move) return this.#ask({ image, way, change_set: null });
     const overtaken = move.status && move.status.before !== local.statusOf(image);
     const possible = overtaken ? { ...move, status: null } : move;
-    if (possible.changes.length === 0 && !possible.status && !possible.word) return this.#travel(way, image);
+    if (possible.changes.length === 0 && !possible.status && !possible.verdict) return this.#travel(way, image);
     this.#carryOut(image, id, possible);
-    this.#wires.travelled({ image, way, changes: possible.changes, stayed: 0, word: possible.word ?? null });
+    this.#wires.travelled({ image, way, changes: possible.changes, stayed: 0, verdict: possible.verdict ?? null });
   }
 
   /** Takes back a change set of the image's history, whoever made it. @type {(image: number, changeSet: number) => void} */
@@ -141,11 +141,11 @@ export class Travelling {
     const history = local.historyOf(this.#local.image);
     if (anew) history.push({ ids: [id], changes: move.changes, status: move.status });
     else if (way === "undo") history.wasUndone({ ...set, ids: [...set.ids, id] });
-    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status, word: null });
-    if (move.changes.length || move.status || move.word)
+    else history.wasRedone({ ids: [...set.ids, id], changes: move.changes, status: move.status, verdict: null });
+    if (move.changes.length || move.status || move.verdict)
       // What is taken back of caps is done anew, a status is as if nobody had said it.
       this.#carryOut(this.#local.image, id, anew && !move.status ? { ...move, takesBack: "" } : move);
     const { changes } = move;
-    this.#wires.travelled({ image: this.#local.image, way, changes, stayed: reversal.changed_since, word: move.word ?? null });
+    this.#wires.travelled({ image: this.#local.image, way, changes, stayed: reversal.changed_since, verdict: move.verdict ?? null });
   }
 }

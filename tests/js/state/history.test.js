@@ -23,7 +23,7 @@ test("undoing is made on the revision that the cap has now, and says what it tak
   const now = { ...at(U, 9), revision: 8 };
   assert.deepEqual(
     history.undo("back", () => now),
-    { takesBack: "moved", changes: [{ before: now, after: { ...U, revision: 8 } }], status: null, word: null },
+    { takesBack: "moved", changes: [{ before: now, after: { ...U, revision: 8 } }], status: null, verdict: null },
   );
   assert.deepEqual(history.depth, { undo: 0, redo: 1 });
   const again = history.redo("again", () => ({ ...U, revision: 9 }));

@@ -83,6 +83,15 @@ test("who approves what is refused learns that, and the image is as it was", asy
   assert.equal(sync.status, "annotated");
 });
 
+test("the key pressed twice leads nobody on, but an answer about another image holds nobody up", async () => {
+  const { sync } = alone();
+  sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);
+  sync.say("approved");
+  assert.equal(await sync.say("approved"), false);
+  sync.open({ ...IMAGE, id: 4, status: "approved" }, [], []);
+  assert.equal(await sync.say("approved"), true);
+});
+
 test("nobody is held up by a line that is broken: what was said is sent later", async () => {
   const { sync } = alone();
   sync.open({ ...IMAGE, id: 3, status: "annotated" }, [], []);

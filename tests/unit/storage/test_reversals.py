@@ -2,7 +2,7 @@
 
 from fairyring.storage.journal import commit
 from fairyring.storage.records import Cap, StatusEdit, Verdict
-from fairyring.storage.reversals import Word, next_reversal, reversal_of
+from fairyring.storage.reversals import VerdictToWithdraw, next_reversal, reversal_of
 from tests.support.edits import one
 from tests.support.image_changes import do, history_of
 from tests.unit.storage.conftest import SQUARE, TRIANGLE
@@ -96,19 +96,19 @@ def test_what_was_said_is_withdrawn_in_its_turn_and_only_while_it_is_the_last_wo
         said = Verdict(id=number, image=1, annotation=annotation, says=says, words=words, change_set=number)
         commit(predicted, [], verdicts=[said], user=user)
 
-    def word(user="rev"):
+    def verdict(user="rev"):
         with predicted.read() as connection:
             found = next_reversal(connection, 1, user=user, way="undo")
-        return found and found.word
+        return found and found.verdict
 
     judge("v1", "approved")
     judge("v2", "comment", words="Is it one?")
-    assert word() == Word(annotation="a", says="approved", words="")
+    assert verdict() == VerdictToWithdraw(annotation="a", says="approved", words="")
     judge("v3", "withdrawn")
-    assert word() is None
+    assert verdict() is None
     judge("v4", "approved")
     judge("v5", "rejected", user="bob", words="No cap")
-    assert word() is None
-    assert word("bob") == Word(annotation="a", says="rejected", words="No cap")
+    assert verdict() is None
+    assert verdict("bob") == VerdictToWithdraw(annotation="a", says="rejected", words="No cap")
     do(predicted, "gone", ("a", 1, None))
-    assert word("bob") is None
+    assert verdict("bob") is None
