@@ -19,6 +19,8 @@ POINTS_PER_SIDE = 8
 """Points computed anew in each doubling, for each pixel of the window's side."""
 LEAST_SCORE = 0.3
 """Instances of a lower score are only enlarged: hardly any is a cap, and there are many."""
+ROOM = 1
+"""Cells around a mask and its margin, on every side, into which it may grow when it is refined."""
 WINDOWS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
 """Sides of windows in cells of the mask; instances of one side are refined together."""
 
@@ -50,15 +52,17 @@ def refine(
     refined: list[RefinedMask | None] = [None] * len(instances.scores)
     boxes = main_boxes_of(instances.logits > 0)
     windows = with_margin(boxes, least=1)
-    corners, sides = windows[:, :2], windows[:, 2:].amax(1)
+    corners, sides = windows[:, :2], windows[:, 2:].amax(1) + 2 * ROOM
     sure = instances.scores >= LEAST_SCORE
     for low, high in zip((0, *WINDOWS), WINDOWS, strict=False):
         for seen_anew in (True, False):
             group = ((sides > low) & (sides <= high) & (sure == seen_anew)).nonzero().squeeze(1)
             if not len(group):
                 continue
-            at = corners[group] * mask_stride
-            logits = _windows(instances.logits[group], corners[group].long(), side=high)
+            # In the middle of its window, the mask may grow on all sides alike.
+            first = corners[group] - (high - windows[group, 2:]).div(2, rounding_mode="floor")
+            at = first * mask_stride
+            logits = _windows(instances.logits[group], first.long(), side=high)
             asker = None
             if seen_anew and head is not None and maps is not None:
                 kernels, frames = instances.kernels[group], boxes[group] * mask_stride

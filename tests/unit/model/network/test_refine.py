@@ -32,14 +32,14 @@ class Knowing:
         return logits_at(queries.kernels, queries.points)
 
 
-def instances(stride: int) -> Instances:
-    """What a coarse mask says of the discs: their logits, rough and a little shifted."""
+def instances(stride: int, *, smaller: float = 0.0) -> Instances:
+    """What a coarse mask says of the discs: their logits, rough and a little shifted, px ``smaller``."""
     height, width = 128 // stride, 160 // stride
     rows, columns = torch.meshgrid(torch.arange(height), torch.arange(width), indexing="ij")
     middles = (torch.stack([columns, rows], -1).reshape(-1, 2) + 0.5) * stride
     torch.manual_seed(0)
     coarse = [
-        logits_at(disc.expand(len(middles), 3), middles + 1.5) + torch.randn(len(middles)) for disc in DISCS
+        logits_at(disc.expand(len(middles), 3), middles + 1.5) - smaller + torch.randn(len(middles)) for disc in DISCS
     ]
     logits = torch.stack(coarse).reshape(3, height, width)
     return Instances(scores=torch.tensor([0.9, 0.8, 0.7]), kernels=DISCS, logits=logits)
@@ -59,6 +59,18 @@ def test_edges_run_where_the_head_says(stride: int) -> None:
             if 0 <= y + row < 128 and 0 <= x + column < 160:
                 told[y + row, x + column] = True
         assert int((told != true).sum()) <= 1
+
+
+def test_a_mask_that_was_too_small_grows_on_all_sides_and_is_not_cut_straight() -> None:
+    head = Knowing()
+    given = instances(8, smaller=10)
+    refined = refine(cast("PointHead", head), cast("PointMaps", object()), given, image=0, mask_stride=8)
+    for x, y, radius, (left, top, logits) in zip(*DISCS.T.tolist(), refined, strict=True):
+        for side, along in ((0, 1), (1, 0)):
+            told = (logits > 0).any(side).nonzero().flatten() + (left, top)[1 - along]
+            middle = (x, y)[1 - along]
+            assert told[0] == pytest.approx(middle - radius, abs=1.5)
+            assert told[-1] + 1 == pytest.approx(middle + radius, abs=1.5)
 
 
 def test_points_are_the_middles_of_pixels_of_each_size_in_turn() -> None:
