@@ -101,14 +101,14 @@ def _steps(
     whole = replace(recipe, network=whole_resolution(recipe.network))
     aside = learn("whole resolution", whole, soft_beds) / FINAL
     steps.append(Step(name="whole resolution (aside)", weights=aside))
-    photos = [*soft_beds, *real]
     if real:
-        weights = learn("real labels", recipe, photos) / FINAL
+        weights = learn("real labels", recipe, [*soft_beds, *real]) / FINAL
         steps.append(Step(name="real labels", weights=weights))
     steps.append(Step(name="two passes", weights=weights, passes=TWO_PASSES))
     second = _second_look(recipe)
     base = with_second_look(load_weights(weights).network, seed=second.seed)
-    weights = learn("second look", replace(second, network=base.config), photos, base=base) / FINAL
+    # As the shipped one: of rendered beds every whole outline is known.
+    weights = learn("second look", replace(second, network=base.config), soft_beds, base=base) / FINAL
     steps.append(Step(name="quality", weights=weights, passes=TWO_PASSES))
     steps.append(Step(name="whole caps", weights=weights, passes=TWO_PASSES, wholes=True))
     return steps

@@ -5,7 +5,7 @@
  * @module
  */
 
-import { hundredths, newCap } from "./caps.js";
+import { areaOfRing, hundredths, newCap } from "./caps.js";
 import { lengthOf, stretch, verticesAhead } from "./places.js";
 import { areaOf, shared, without } from "./regions.js";
 import { nearestEdges } from "./vertices.js";
@@ -19,6 +19,8 @@ import { nearestEdges } from "./vertices.js";
 const LONGEST_WAY = 1.5;
 /** Less than this, px², is not worth taking. */
 const LEAST_AREA = 1;
+/** What is parted from a neighbour goes where it is smaller than this, px², and than that share of what is left. */
+const CRUMB = { area: 40, share: 0.05 };
 
 /**
  * The line drawn onto the rims that it passes within `reach`, and along them between two such places.
@@ -69,6 +71,13 @@ function between(from, to) {
  */
 export function leftOf(neighbour, gained) {
   if (gained.length === 0 || areaOf(shared(neighbour, gained)) < LEAST_AREA) return null;
-  const left = without(neighbour, gained);
+  const left = withoutCrumbs(without(neighbour, gained), neighbour.length);
   return left.length ? left : null;
+}
+
+/** Without pieces that a cap of so many parts has not had before, where they are too small to be seen. @type {(left: Outline, parts: number) => Outline} */
+function withoutCrumbs(left, parts) {
+  const bySize = left.toSorted((a, b) => areaOfRing(b) - areaOfRing(a));
+  const least = Math.min(CRUMB.area, CRUMB.share * areaOf(left));
+  return left.filter((ring) => areaOfRing(ring) >= least || bySize.indexOf(ring) < parts);
 }

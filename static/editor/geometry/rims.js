@@ -21,8 +21,10 @@ import { FEWEST } from "./vertices.js";
  * @property {(line: Point[]) => Point[]} [along]  what the drawn line follows instead, where others share the border
  */
 
-/** A stroke runs along the longer of two stretches where it is so much nearer to that, in distances. */
+/** A stroke runs along the longer of two stretches where it is so much nearer to that than to the other, in distances … */
 const NEARER = 0.5;
+/** … and no farther from it than so many radii: one across a cap is nearer to something, too. */
+const ALONG = 0.3;
 /** A rim that is far off may be as far away from a stroke along the true one, in radii. */
 const OFF = 0.37;
 /** A stroke that bends away from a cap is so much less likely to be about it. */
@@ -82,8 +84,8 @@ export function redrawingOf(cap, stroke, how) {
 }
 
 /**
- * The ring with the stretch between the ends of the stroke redrawn: the shorter one, unless the stroke runs
- * along the longer.
+ * The ring with the stretch between the ends of the stroke redrawn: the one that leaves more of the cap, unless the
+ * stroke runs along the longer.
  *
  * @type {(ring: number[], stroke: Point[], how: How) => number[] | null}
  */
@@ -107,7 +109,7 @@ function redrawingOfRing(ring, stroke, { reach, other = false }) {
     stretch(ring, end, start, ring.length / 2 - ahead).reverse(),
   ];
   const some = every(between, Math.ceil(between.length / LOOKED_AT));
-  const meant = isReplaced(ways[0], ways[1], some) ? 0 : 1;
+  const meant = isReplaced(ways[0], ways[1], line, { some, radius }) ? 0 : 1;
   const replaced = other ? 1 - meant : meant;
   return {
     replaced: ways[replaced],
@@ -129,12 +131,23 @@ function asItIs(line) {
   return line;
 }
 
-/** Whether the first of two stretches is the one that the stroke takes the place of. @type {(first: Point[], second: Point[], between: Point[]) => boolean} */
-function isReplaced(first, second, between) {
+/**
+ * Whether a stroke takes the place of the first of two stretches: the one that it runs along, though that be the
+ * longer; else the one that leaves more of the cap.
+ *
+ * @type {(first: Point[], second: Point[], line: Point[], stroke: {some: Point[], radius: number}) => boolean}
+ */
+function isReplaced(first, second, line, { some, radius }) {
   const shorter = lengthOf(first) <= lengthOf(second);
   const [short, long] = shorter ? [first, second] : [second, first];
-  const alongTheLonger = mean(distances(between, long)) < NEARER * mean(distances(between, short));
-  return shorter !== alongTheLonger;
+  const away = mean(distances(some, long));
+  if (away < ALONG * radius && away < NEARER * mean(distances(some, short))) return !shorter;
+  return areaBetween(line, second) >= areaBetween(line, first);
+}
+
+/** @type {(line: Point[], stretch: Point[]) => number} */
+function areaBetween(line, stretch) {
+  return areaOfRing([...line, ...stretch.slice(1, -1).reverse()].flat());
 }
 
 /**

@@ -59,3 +59,12 @@ test("a neighbour loses what another gains of it, but neither nothing nor all", 
   assert.equal(leftOf([NEIGHBOUR], [[0, 0, 90, 0, 90, 100, 0, 100]]), null);
   assert.equal(leftOf([NEIGHBOUR], [[50, -50, 300, -50, 300, 200, 50, 200]]), null);
 });
+
+test("a crumb that is parted from a neighbour goes, a larger piece and a part that was there before stay", () => {
+  // NEIGHBOUR is 100 × 100 px from (100, 0); a strip is taken out of it, right of which a piece is left.
+  const upTo = (/** @type {number} */ x) => [[150, -10, x, -10, x, 110, 150, 110]];
+  assert.equal(areaOf(leftOf([NEIGHBOUR], upTo(199.7)) ?? []), 5000);
+  assert.equal(areaOf(leftOf([NEIGHBOUR], upTo(190)) ?? []), 6000);
+  const speck = [300, 0, 305, 0, 305, 5, 300, 5];
+  assert.equal(areaOf(leftOf([NEIGHBOUR, speck], upTo(210)) ?? []), 5025);
+});

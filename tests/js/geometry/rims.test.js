@@ -67,6 +67,16 @@ test("a straight cut takes the smaller side away, and the larger one where that 
   about(area(SQUARE, cut, { other: true }), 3000);
 });
 
+test("a cut between two caps of one outline keeps the larger, though its rim is the shorter way round", () => {
+  // A square of 60, and beside it a comb of the same height: far more rim, far less area.
+  const comb = [60, 0, 100, 0, 100, 10, 80, 10, 80, 20, 100, 20, 100, 30, 80, 30, 80, 40, 100, 40, 100, 60, 60, 60];
+  const both = [0, 0, ...comb, 0, 60];
+  /** @type {Point[]} */
+  const cut = Array.from({ length: 7 }, (_, i) => [60, 10 * i]);
+  about(area(both, cut), 3600);
+  about(area(both, cut.toReversed()), 3600);
+});
+
 test("a stroke that begins or ends off the rim counts from where it crosses it", () => {
   /** @type {Point[]} */
   const across = Array.from({ length: 15 }, (_, i) => [30, 10 * i - 20]);

@@ -34,6 +34,8 @@ const STOPS_MS = 600;
 
 /** What neighbours hide of a new cap is cut from it where it is more than this share: less is where borders meet. */
 const LEAST_CUT = 0.005;
+/** From this share on it is said: less is seen, and a sentence at every cap is read at none. */
+const TOLD_CUT = 0.1;
 const CUT = "Cut at its neighbours' borders: Ctrl+Z gives it back as drawn.";
 
 /** @implements {Tool} */
@@ -174,7 +176,7 @@ export class PolygonTool {
     if (!before || seen.length === 0 || hidden < LEAST_CUT * areaOf(whole)) return drawn;
     const change = changed(before, withCap(before, { ...before.cap, visible: seen }));
     state.commit([change]);
-    this.#say(CUT);
+    if (hidden >= TOLD_CUT * areaOf(whole)) this.#say(CUT);
     return change.after;
   }
 

@@ -5,7 +5,7 @@
  * @module
  */
 
-import { hundredths } from "../../geometry/caps.js";
+import { hundredths, insideCap } from "../../geometry/caps.js";
 import { HANDLE_GAP_PX, handlesAreApart, movedHandle } from "../../geometry/handles.js";
 import { same } from "../../geometry/same.js";
 import { movedShape, withCap } from "../../geometry/shapes.js";
@@ -162,7 +162,7 @@ export class SelectTool {
   /** @type {(press: Press) => void} */
   #click(press) {
     const state = this.#state;
-    if (this.#grip?.kind === "handle") {
+    if (this.#grip?.kind === "handle" && !this.#meansAnother(this.#grip, press)) {
       this.#keepsActive = true;
       return;
     }
@@ -171,6 +171,11 @@ export class SelectTool {
     if (!item) return;
     const others = [...state.selection.uids].filter((uid) => uid !== item.uid);
     state.select(state.selection.has(item.uid) ? others : [...others, item.uid]);
+  }
+
+  /** The ring of a mark runs over the caps beside it: a click there that moved nothing means the cap. @type {(grip: Grip & {kind: "handle"}, press: Press) => boolean} */
+  #meansAnother({ shape, handle }, { image }) {
+    return handle.kind === "rim" && !insideCap(shape.cap, ...image) && this.#state.at(image, 0) !== null;
   }
 
   /** Takes the vertex under the pointer out, where it can be told from its neighbours. */

@@ -47,6 +47,8 @@ export class StrokeTool {
   #start = null;
   /** @type {Point[]} */
   #stroke = [];
+  /** A stroke that did nothing stays on screen until the next one, and is what undo takes back. @type {Point[]} */
+  #refused = [];
   #other = false;
   #state;
   #say;
@@ -79,6 +81,7 @@ export class StrokeTool {
   /** @type {(press: Press) => void} */
   down(press) {
     this.#state.commitDrafts();
+    this.#forget();
     this.#start = press;
     this.#stroke = [this.#inPhoto(press)];
   }
@@ -125,23 +128,27 @@ export class StrokeTool {
       const [{ after }] = effect.changes;
       this.#state.commit(effect.changes);
       this.#state.select([after.uid]);
-    } else if (stroke.length > 2) this.#say(this.#meaning.without(stroke));
+    } else if (stroke.length > 2) {
+      this.#refused = stroke;
+      this.#say(this.#meaning.without(stroke));
+    }
   }
 
   #forget() {
     this.#start = null;
     this.#stroke = [];
+    this.#refused = [];
     this.#other = false;
     this.#state.signals.overlay.emit();
   }
 
   cancel() {
-    const busy = this.#start !== null;
+    const busy = this.#start !== null || this.#refused.length > 0;
     this.#forget();
     return busy;
   }
 
-  /** While the pointer is pressed, the stroke is all that is taken back. */
+  /** The stroke that is drawn, or did nothing, is all that is taken back. */
   undo() {
     return this.cancel();
   }
@@ -152,7 +159,8 @@ export class StrokeTool {
 
   /** The cap that the stroke is about, what would become of the caps, dashed, and the stroke upon it. @type {import("../../render/overlay.js").Sketch} */
   sketch = (context, view) => {
-    if (this.#stroke.length < 2) return false;
+    const stroke = this.#refused.length ? this.#refused : this.#stroke;
+    if (stroke.length < 2) return false;
     const effect = this.#effect();
     if (effect) drawGivingWay(context, view, effect);
     context.beginPath();
@@ -162,13 +170,13 @@ export class StrokeTool {
     strokeCased(context, { colour: COLOURS.outline, width: 1.5, casing: CASING });
     context.setLineDash([]);
     context.beginPath();
-    traceRing(context, view, this.#stroke.flat(), false);
+    traceRing(context, view, stroke.flat(), false);
     strokeCased(context, {
       colour: effect ? COLOURS.draft : COLOURS.ignored,
       width: 2.5,
       casing: CASING,
     });
-    const [x, y] = toScreen(view, ...this.#stroke[this.#stroke.length - 1]);
+    const [x, y] = toScreen(view, ...stroke[stroke.length - 1]);
     if (effect?.note) writeCentred(context, effect.note, x, y + 14);
     return true;
   };

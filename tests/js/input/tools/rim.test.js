@@ -30,6 +30,29 @@ const ADDED = (Math.PI / 4) * (100 ** 2 - 80 ** 2);
 /** @type {(visible: number[][]) => number} */
 const area = (visible) => visible.reduce((sum, ring) => sum + areaOfRing(ring), 0);
 
+/**
+ * The colours of the lines and the words that a tool paints.
+ *
+ * @type {(tool: import("../../../../static/editor/input/tools/tool.js").Tool, state: import("../../../../static/editor/state/editor_state.js").EditorState) => {strokes: string[], words: string[]}}
+ */
+function paintedBy(tool, state) {
+  /** @type {string[]} */
+  const strokes = [];
+  /** @type {string[]} */
+  const words = [];
+  /** @type {{strokeStyle: string, stroke: () => void, fillText: (text: string) => void}} */
+  const context = new Proxy(
+    {
+      strokeStyle: "",
+      stroke: () => void strokes.push(context.strokeStyle),
+      fillText: (/** @type {string} */ text) => void words.push(text),
+    },
+    { get: (own, name) => Reflect.get(own, name) ?? (() => {}) },
+  );
+  tool.sketch?.(/** @type {any} */ (context), state.viewport.view);
+  return { strokes, words };
+}
+
 function redrawing() {
   const { state, committed } = openState({
     shapes: [storedShape("round", capOf(ROUND)), storedShape("beside", capOf(BESIDE))],
@@ -264,20 +287,33 @@ test("while a stroke is drawn, what of the rim is to go fades, nothing else is l
   hand.hover(first);
   hand.down(first);
   hand.drag(...way);
-  /** @type {string[]} */
-  const strokes = [];
-  /** @type {string[]} */
-  const words = [];
-  /** @type {{strokeStyle: string, stroke: () => void, fillText: (text: string) => void}} */
-  const context = new Proxy(
-    {
-      strokeStyle: "",
-      stroke: () => void strokes.push(context.strokeStyle),
-      fillText: (/** @type {string} */ text) => void words.push(text),
-    },
-    { get: (own, name) => Reflect.get(own, name) ?? (() => {}) },
-  );
-  tool.sketch(/** @type {any} */ (context), state.viewport.view);
+  const { strokes, words } = paintedBy(tool, state);
   assert.deepEqual([strokes.includes(FADED), state.selection.hovered], [true, null]);
   assert.deepEqual(words, ["takes from its neighbour"]);
+});
+
+test("a stroke that does nothing stays to be seen, and is all that undo takes back", () => {
+  const { state, committed, hand, tool, said } = redrawing();
+  hand.stroke(overQuarter(100));
+  hand.stroke([
+    [20, 20],
+    [60, 40],
+    [20, 60],
+  ]);
+  assert.deepEqual([committed.length, said.length], [1, 1]);
+  assert.ok(paintedBy(tool, state).strokes.length > 0);
+  assert.equal(tool.undo(), true);
+  assert.equal(paintedBy(tool, state).strokes.length, 0);
+  assert.equal(tool.undo(), false, "the next undo is for what was done before");
+});
+
+test("the next stroke takes the place of one that did nothing", () => {
+  const { committed, hand } = redrawing();
+  hand.stroke([
+    [20, 20],
+    [60, 40],
+    [20, 60],
+  ]);
+  hand.stroke(overQuarter(100));
+  assert.equal(committed.length, 1);
 });

@@ -193,3 +193,24 @@ function at(ms, what) {
     performance.now = now;
   }
 }
+
+test("a click where the ring of the selected cap's mark runs over another cap selects that; a drag moves the ring", () => {
+  // Half of a disc around (300, 200), marked whole, and the cap that hides the other half.
+  const half = [300, 150, 300, 250, 265, 235, 250, 200, 265, 165];
+  const inFront = [300, 150, 400, 150, 400, 250, 300, 250];
+  const mark = { kind: /** @type {const} */ ("circle"), cx: 300, cy: 200, r: 50 };
+  const shapes = [storedShape("half", { ...capOf(half), mark }), storedShape("front", capOf(inFront))];
+  const { state, hand, committed } = selecting(HEXAGON, { shapes });
+  state.select(["half"]);
+  hand.click([350, 200]);
+  assert.deepEqual([...state.selection.uids], ["front"]);
+  state.select(["half"]);
+  hand.stroke([
+    [350, 200],
+    [360, 200],
+    [370, 200],
+  ]);
+  const [[{ after }]] = committed;
+  assert.equal(after.cap.mark.r, 70);
+  assert.deepEqual([...state.selection.uids], ["half"]);
+});

@@ -39,7 +39,8 @@ def instances(stride: int, *, smaller: float = 0.0) -> Instances:
     middles = (torch.stack([columns, rows], -1).reshape(-1, 2) + 0.5) * stride
     torch.manual_seed(0)
     coarse = [
-        logits_at(disc.expand(len(middles), 3), middles + 1.5) - smaller + torch.randn(len(middles)) for disc in DISCS
+        logits_at(disc.expand(len(middles), 3), middles + 1.5) - smaller + torch.randn(len(middles))
+        for disc in DISCS
     ]
     logits = torch.stack(coarse).reshape(3, height, width)
     return Instances(scores=torch.tensor([0.9, 0.8, 0.7]), kernels=DISCS, logits=logits)
