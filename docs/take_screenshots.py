@@ -173,7 +173,12 @@ def _mark_some(tab: Tab, caps: list[dict]) -> None:
             tab.saved()
 
 
+PHOTO_IS_THERE = """performance.getEntriesByType("resource").some(
+    ({ name, responseEnd }) => /\\/photos\\/.*w=2000/.test(name) && responseEnd > 0)"""
+
+
 def _take(tab: Tab, name: str) -> None:
+    tab.wait_for(PHOTO_IS_THERE)
     tab.page.wait_for_timeout(1500)
     tab.page.screenshot(path=PICTURES / f"{name}.jpg", type="jpeg", quality=82)
 
