@@ -22,7 +22,21 @@ const NUDGES_END_MS = 400;
  */
 export function changeSelected(state, change) {
   state.commitDrafts();
-  const changes = state.selected.flatMap((shape) => {
+  changeShapes(state, state.selected, change);
+}
+
+/** Likewise the selected caps, or with none selected the one under the pointer. @type {(state: EditorState, change: (shapes: Shape[]) => (cap: Cap) => Cap | null) => void} */
+export function changeMeant(state, change) {
+  state.commitDrafts();
+  const { hovered } = state.selection;
+  const pointed = hovered !== null && !state.layers.allHidden ? state.items.get(hovered) : null;
+  const meant = state.selected.length || !pointed ? state.selected : [pointed];
+  changeShapes(state, meant, change(meant));
+}
+
+/** @type {(state: EditorState, shapes: Shape[], change: (cap: Cap, shape: Shape) => Cap | null) => void} */
+function changeShapes(state, shapes, change) {
+  const changes = shapes.flatMap((shape) => {
     const cap = change(shape.cap, shape);
     return cap && cap !== shape.cap ? [changed(shape, withCap(shape, cap))] : [];
   });

@@ -5,7 +5,7 @@
  */
 
 import { areaOfRing, circleOfWhole, polygonOfCircle } from "../../geometry/caps.js";
-import { changeSelected } from "../../state/edits.js";
+import { changeMeant, changeSelected } from "../../state/edits.js";
 
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
 /** @typedef {import("../../protocol.js").Cap} Cap */
@@ -30,10 +30,12 @@ export function markSelected({ state, say }) {
   });
 }
 
-/** All on unless all are on already. @type {(state: EditorState, name: "doubtful" | "ignored") => void} */
+/** All on unless all are on already; with nothing selected, of the cap under the pointer. @type {(state: EditorState, name: "doubtful" | "ignored") => void} */
 export function flag(state, name) {
-  const on = state.selected.some(({ cap }) => !cap[name]);
-  changeSelected(state, (cap) => (cap[name] === on ? null : { ...cap, [name]: on }));
+  changeMeant(state, (shapes) => {
+    const on = shapes.some(({ cap }) => !cap[name]);
+    return (cap) => (cap[name] === on ? null : { ...cap, [name]: on });
+  });
 }
 
 /** @type {(state: EditorState, by: number) => void} */
