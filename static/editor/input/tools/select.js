@@ -14,7 +14,7 @@ import { drawBand, inBand } from "./band.js";
 import { Clicks } from "./clicks.js";
 import { drop, edgeAt, gripAt, handleAt, hasLost, pixels } from "./grip.js";
 import { CLICK_PX, EDGE_PX, apart } from "./tool.js";
-import { VertexRemoval } from "./vertex_removal.js";
+import { Removal } from "./removal.js";
 
 /** @typedef {import("../../geometry/handles.js").Handle} Handle */
 /** @typedef {import("../../geometry/shapes.js").Shape} Shape */
@@ -56,7 +56,7 @@ export class SelectTool {
   constructor(state, { say, rim }) {
     this.#state = state;
     this.#rim = rim;
-    this.#removal = new VertexRemoval(state, say);
+    this.#removal = new Removal(state, say);
     this.#clicks = new Clicks(state);
   }
 
@@ -178,13 +178,14 @@ export class SelectTool {
     return handle.kind === "rim" && !insideCap(shape.cap, ...image) && this.#state.at(image, 0) !== null;
   }
 
-  /** Takes the vertex under the pointer out, where it can be told from its neighbours. */
+  /** Takes the vertex under the pointer out, where it can be told from its neighbours; else a lesser part there. */
   back() {
     const { sole } = this.#state;
     if (this.#grip) return true;
     if (!sole) return false;
     const apart = handlesAreApart(sole.cap, pixels(this.#state, HANDLE_GAP_PX));
-    return (apart && this.#removeVertex(this.#under)) || this.#removal.keepsCap();
+    if ((apart && this.#removeVertex(this.#under)) || this.#removal.keepsCap()) return true;
+    return this.#state.selection.hovered === null && this.#removal.removePart(this.#at);
   }
 
   /** @type {(handle: Handle | null) => boolean} */

@@ -214,3 +214,16 @@ test("a click where the ring of the selected cap's mark runs over another cap se
   assert.equal(after.cap.mark.r, 70);
   assert.deepEqual([...state.selection.uids], ["half"]);
 });
+
+test("Delete over a lesser part of the selected cap takes that part; over the largest it takes the cap", () => {
+  const sliver = [200, 100, 210, 100, 210, 160, 200, 160];
+  const shapes = [storedShape("u", capOf(HEXAGON, sliver))];
+  const { state, hand, del } = selecting(HEXAGON, { shapes });
+  hand.hover([205, 130]);
+  del();
+  del();
+  assert.deepEqual(state.items.get("u")?.cap.visible, [HEXAGON]);
+  hand.hover([100, 130]);
+  del();
+  assert.equal(state.items.get("u"), null);
+});
