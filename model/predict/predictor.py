@@ -196,7 +196,7 @@ class Predictor:
         if len(places) != len(wanted) or not wanted[:1].all() or not len(places):
             raise ValueError("Every point needs a label, and the first must be on the cap.")
         scaling = _scaling(seen)
-        found = cap_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest)
+        found = self._drawn(cap_at(self.network, seen, places * scaling, wanted, finest=self.settings.finest))
         for taken in places[~wanted] * scaling:
             # A notch that goes no further than the click is smoothed away again.
             if found is not None and _holds(_smooth_outline(found.window), taken):
@@ -214,14 +214,20 @@ class Predictor:
         if not (left < right and top < bottom):
             raise ValueError("A box is given by its left, top, right and bottom.")
         found = cap_in(self.network, seen, (left, top, right, bottom), finest=self.settings.finest)
-        return self._told(seen, found, front)
+        return self._told(seen, self._drawn(found), front)
+
+    def _drawn(self, pointed: Pointed | None) -> Pointed | None:
+        """The cap with its rim where people draw it."""
+        if pointed is None:
+            return None
+        logits = pointed.window.logits + np.float32(self.rim)
+        return replace(pointed, window=replace(pointed.window, logits=logits))
 
     def _told(self, seen: Seen, pointed: Pointed | None, front: Sequence[Outline]) -> Detection | None:
         """The one cap that was asked for, cut where others lie in front; None where nothing is left of it."""
         if pointed is None:
             return None
-        drawn = replace(pointed.window, logits=pointed.window.logits + np.float32(self.rim))
-        window = behind(drawn, [_scaled(outline, _scaling(seen)) for outline in front])
+        window = behind(pointed.window, [_scaled(outline, _scaling(seen)) for outline in front])
         window = replace(window, logits=smoothed(window.logits))
         if not (window.logits > 0).any():
             return None
