@@ -108,7 +108,7 @@ class Worker:
         self._thread.join(timeout=5)
 
     def _answer_all(self) -> None:
-        # Ctrl+C is for the server to answer; a process that this thread starts never hears of it.
+        # Ctrl+C is for the server to answer, and not for a process that this thread is starting.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         while not self._closed.is_set():
             request = self._requests.get()
@@ -204,6 +204,8 @@ class _Process:
 
 def _serve(line: Connection, nice: int) -> None:
     """Answers, in a process of its own, until the other end is gone, be it by SIGKILL."""
+    # Ctrl+C in a terminal reaches all processes of the server, which alone answers it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     cv2.setNumThreads(1)
     os.nice(nice)
     try:

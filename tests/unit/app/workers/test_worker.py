@@ -32,6 +32,13 @@ def test_it_works_in_a_process_of_its_own_which_stays(worker: Worker) -> None:
     assert first == second != os.getpid()
 
 
+def test_ctrl_c_which_reaches_all_processes_of_a_terminal_is_not_for_it(worker: Worker) -> None:
+    pid = worker.run(os.getpid)
+    os.kill(pid, signal.SIGINT)
+    assert worker.run(os.getpid) == pid
+    assert worker.started == 1
+
+
 def test_what_is_raised_there_is_raised_here(worker: Worker) -> None:
     with pytest.raises(FairyringError, match="too many points") as raised:
         worker.run(refuse, "too many points")
